@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Clocks: time integrators as data. A clock is either rows of primitives or a Runge–Kutta tableau; one engine runs each kind
+ * on any space. */
+#ifndef GRIDCROSS_CLOCK_H
+#define GRIDCROSS_CLOCK_H
+
+#include <stdbool.h>
+
+#include <gridcross/space.h>
+
+enum gx_primitive {
+  GX_END,
+  GX_WEIGHTS,    /* W: weights at the current positions */
+  GX_PROJECT,    /* P: nodal mass and velocity */
+  GX_ACCELERATE, /* A: nodal acceleration */
+  GX_KICK,       /* K: velocities by coefficient * dt */
+  GX_STRAIN,     /* G: F and stress by coefficient * dt */
+  GX_DRIFT       /* X: positions by coefficient * dt */
+};
+
+struct gx_row {
+  enum gx_primitive primitive;
+  double coefficient;
+};
+
+enum { GX_MAX_STAGES = 16 };
+
+struct gx_tableau {
+  int stages;
+  double a[GX_MAX_STAGES][GX_MAX_STAGES]; /* strictly lower triangular */
+  double b[GX_MAX_STAGES];
+  double c[GX_MAX_STAGES];
+};
+
+struct gx_clock {
+  const char *name;
+  const char *help;
+  const char *source;
+  int order;
+  int stages; /* acceleration evaluations per step */
+  bool symplectic;
+  bool staggered;            /* velocity lives at half steps, starting at -dt/2 */
+  bool first_order_defect;   /* per-step energy defect by berzins2022 E(94), else E(88) */
+  double stability;          /* largest omega dt on x'' = -omega^2 x */
+  const struct gx_row *rows; /* ended by GX_END; NULL: use tableau */
+  const struct gx_tableau *tableau;
+};
+
+extern const struct gx_clock *const gx_clock_family[];
+const struct gx_clock *gx_clock_find(const char *name);
+
+/* Called with the body force and velocity of a stage: its weight (s) in the work integral. */
+struct gx_work_observer {
+  void *context;
+  void (*power)(void *context, struct gx_space *space, double weight);
+};
+
+struct gx_stepper;
+
+/* NULL when memory runs out. observer may be NULL. space, clock and observer are borrowed. */
+struct gx_stepper *gx_stepper_create(const struct gx_clock *clock, struct gx_space *space,
+                                     const struct gx_work_observer *observer);
+void gx_stepper_free(struct gx_stepper *stepper);
+/* One step from time t. */
+enum gx_status gx_stepper_step(struct gx_stepper *stepper, double t, double dt);
+/* Acceleration at the current state and time t without advancing; the next step from t reuses it. */
+enum gx_status gx_stepper_accelerate(struct gx_stepper *stepper, double t);
+
+#endif

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The background grid: a box [0,1]^dim of equal cells, its basis functions per direction, and fields over them.
+ * A periodic direction stores images of its first functions behind the last one, so that no kernel wraps an index. */
+#ifndef GRIDCROSS_GRID_H
+#define GRIDCROSS_GRID_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include <gridcross/particles.h>
+
+struct gx_axis {
+  int cells;
+  bool periodic;
+  double h;      /* cell width 1/cells, m */
+  int degree;    /* of the basis along this direction */
+  int support;   /* functions that are non-zero in a cell */
+  int functions; /* distinct basis functions */
+  int stored;    /* functions plus periodic images */
+  int edge;      /* bounded: functions at each end that a fixed end holds at zero */
+};
+
+struct gx_grid {
+  int dim;
+  struct gx_axis axis[GX_MAX_DIM];
+  size_t stride[GX_MAX_DIM]; /* first direction fastest */
+  size_t stored;             /* entries of a field: product of axis[d].stored */
+};
+
+/* Adds periodic images to the functions they stand for. field: [stored]. */
+void gx_grid_fold(const struct gx_grid *grid, double *field);
+/* Copies functions to their periodic images. field: [stored]. */
+void gx_grid_spread(const struct gx_grid *grid, double *field);
+/* Zeroes the functions at the ends of bounded direction d: a fixed end. field: [stored]. */
+void gx_grid_fix(const struct gx_grid *grid, int d, double *field);
+
+/* Cell of coordinate x along the axis: wrapped when periodic, clamped to the end cells when bounded. */
+static inline int gx_grid_cell(const struct gx_axis *axis, double x)
+{
+  double s = x * axis->cells;
+  int c = (int)s - ((double)(int)s > s);
+  if (axis->periodic) {
+    c %= axis->cells;
+    return c < 0 ? c + axis->cells : c;
+  }
+  return c < 0 ? 0 : c >= axis->cells ? axis->cells - 1 : c;
+}
+
+#endif

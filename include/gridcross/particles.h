@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The particle store that every space shares: a structure of arrays, one contiguous aligned array per component. */
+#ifndef GRIDCROSS_PARTICLES_H
+#define GRIDCROSS_PARTICLES_H
+
+#include <stddef.h>
+
+#include <gridcross/status.h>
+
+enum { GX_MAX_DIM = 3, GX_MAX_TENSOR = 9 };
+
+enum gx_layout {
+  GX_LAYOUT_UNIFORM, /* centres of equal parts of a cell: the midpoint rule */
+  GX_LAYOUT_GAUSS    /* Gauss points of a cell, Gauss weights as volumes */
+};
+
+/* Tensors are row-major: component (i, j) is array i * dim + j. All arrays have n entries, 64-byte aligned, owned. SI units. */
+struct gx_particles {
+  int dim;                         /* 1, 2 or 3 */
+  size_t n;                        /* number of particles */
+  double *X[GX_MAX_DIM];           /* reference position, m */
+  double *u[GX_MAX_DIM];           /* displacement, m; current position x = X + u, never wrapped */
+  double *v[GX_MAX_DIM];           /* velocity, m/s */
+  double *b[GX_MAX_DIM];           /* body force per unit mass at the last acceleration, m/s^2 */
+  double *F[GX_MAX_TENSOR];        /* deformation gradient dx/dX, – */
+  double *P[GX_MAX_TENSOR];        /* first Piola–Kirchhoff stress, Pa */
+  double *m;                       /* mass, kg (per unit area in 1-D, per unit length in 2-D) */
+  double *V0;                      /* reference volume, m^dim */
+  double *half_length[GX_MAX_DIM]; /* half the reference edge of the particle's domain, m */
+  void *block;                     /* the memory behind all of the above */
+};
+
+/* Particles at rest, F = I, in the box [0,1]^dim of cells[d] cells with per_cell particles per cell and direction,
+ * ordered cell by cell (first direction fastest). density: kg/m^dim. NULL when memory runs out. */
+struct gx_particles *gx_particles_create(int dim, const int *cells, int per_cell, enum gx_layout layout, double density);
+void gx_particles_free(struct gx_particles *particles);
+
+/* det F of one particle */
+double gx_particles_jacobian(const struct gx_particles *particles, size_t p);
+
+#endif

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Problems: material, boundary, body force and exact solution. */
+#ifndef GRIDCROSS_PROBLEM_H
+#define GRIDCROSS_PROBLEM_H
+
+#include <stdbool.h>
+
+#include <gridcross/material.h>
+#include <gridcross/particles.h>
+
+struct gx_problem_options {
+  int dim;
+  double amplitude; /* A, m */
+  double mode;      /* wavenumber m of sin(2 pi m X) */
+  struct gx_moduli moduli;
+  bool active[GX_MAX_DIM];  /* directions that move */
+  double phase[GX_MAX_DIM]; /* rad */
+};
+
+/* A problem posed at given reference points; tables of sin and cos are made once. */
+struct gx_posed {
+  const struct gx_problem *problem;
+  struct gx_problem_options options;
+  double speed; /* longitudinal wave speed c, m/s */
+  size_t n;
+  double *sine[GX_MAX_DIM];   /* [n] sin(2 pi m X_d), owned */
+  double *cosine[GX_MAX_DIM]; /* [n] cos(2 pi m X_d), owned */
+};
+
+struct gx_problem {
+  const char *name;
+  const char *help;
+  const char *source;
+  const struct gx_material *const *material;
+  int max_dim;
+  bool has_mode, has_directions, has_poisson; /* which problem.* parameters apply */
+  bool periodic;                              /* default boundary */
+  double cycles;                              /* one period is cycles/c seconds (c: wave speed, domain length 1) */
+  /* Exact displacement, velocity, deformation gradient at time t; any output may be NULL. Arrays as in gx_particles. */
+  void (*exact)(const struct gx_posed *posed, double t, double *const *u, double *const *v, double *const *F);
+  /* Body force per unit mass at the reference points at time t, m/s^2; NULL: none. b: [dim][n]. */
+  void (*body)(const struct gx_posed *posed, double t, double *const *b);
+};
+
+extern const struct gx_problem *const gx_problem_family[];
+const struct gx_problem *gx_problem_find(const char *name);
+
+/* X: [dim][n] reference positions. NULL when memory runs out. */
+struct gx_posed *gx_problem_pose(const struct gx_problem *problem, const struct gx_problem_options *options, size_t n,
+                                 double *const *X);
+void gx_problem_free(struct gx_posed *posed);
+
+#endif

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Spaces: what turns particle state into rates. A clock knows a space by this interface alone. */
+#ifndef GRIDCROSS_SPACE_H
+#define GRIDCROSS_SPACE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include <gridcross/basis.h>
+#include <gridcross/particles.h>
+#include <gridcross/problem.h>
+
+struct gx_space_options {
+  int cells[GX_MAX_DIM];
+  bool periodic;
+  const struct gx_basis *basis;
+  int degree;
+  bool consistent;      /* mass matrix: consistent, else lumped (row sums) */
+  bool pic;             /* particle velocity from the grid, else by increments (FLIP) */
+  double flip;          /* blend: flip * FLIP + (1 - flip) * PIC */
+  bool particle_motion; /* method.position: particle */
+  bool each_step;       /* method.projection: nodal velocity re-projected from particles */
+  bool stress_rate;     /* stress integrated by rate, else P(F) */
+};
+
+enum { GX_MAX_STATE = 32 };
+
+/* The arrays that a space advances in time; what a Runge–Kutta engine combines. */
+struct gx_state {
+  int count;
+  double *array[GX_MAX_STATE];
+  size_t length[GX_MAX_STATE];
+};
+
+struct gx_space;
+
+struct gx_space_kind {
+  const char *name;
+  const char *help;
+  const char *source;
+  bool fixed_grid; /* particles move through the grid: projection each step by default, crossings counted */
+  /* Builds the space on particles and a posed problem (both borrowed, particles already in their initial state). */
+  enum gx_status (*create)(struct gx_space **space, const struct gx_space_options *options, struct gx_particles *particles,
+                           const struct gx_posed *posed, struct gx_outcome *outcome);
+  void (*free)(struct gx_space *space);
+  /* Primitives of NUMERICS: W, P, A at time t, then K (kick), G (strain), X (drift) in that order, each by its own time span;
+   * a span of 0 skips it. */
+  enum gx_status (*weights)(struct gx_space *space);
+  enum gx_status (*project)(struct gx_space *space);
+  enum gx_status (*accelerate)(struct gx_space *space, double t);
+  void (*advance)(struct gx_space *space, double kick, double strain, double drift);
+  /* Runge–Kutta view: the state, and its time derivatives after W, P, A. rate: [state.count] arrays. */
+  void (*state)(struct gx_space *space, struct gx_state *state);
+  void (*rates)(struct gx_space *space, double *const *rate);
+  /* Brings particles up to date with a state that lives on nodes; NULL: nothing to do. */
+  void (*settle)(struct gx_space *space);
+  /* Acceleration of the particles after accelerate. a: [dim][n], m/s^2. */
+  void (*particle_acceleration)(struct gx_space *space, double *const *a);
+};
+
+/* What every space starts with. */
+struct gx_space {
+  const struct gx_space_kind *kind;
+  struct gx_particles *particles; /* borrowed */
+  const struct gx_posed *posed;   /* borrowed */
+  struct gx_outcome *outcome;     /* borrowed: filled when a primitive fails */
+};
+
+extern const struct gx_space_kind *const gx_space_family[];
+const struct gx_space_kind *gx_space_find(const char *name);
+
+#endif

@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A study: the cases that a run file expands to, and how to run them. */
+#ifndef GRIDCROSS_STUDY_H
+#define GRIDCROSS_STUDY_H
+
+#include <stdio.h>
+
+#include <gridcross/measure.h>
+#include <gridcross/parameter.h>
+#include <gridcross/status.h>
+#include <gridcross/table.h>
+
+enum { GX_ID_LENGTH = 17 };
+
+struct gx_case {
+  char id[GX_ID_LENGTH];                /* hash of the resolved parameters, 16 hexadecimal digits */
+  struct gx_value value[GX_PARAMETERS]; /* resolved; texts owned by the study */
+};
+
+struct gx_study {
+  char *title;  /* owned, "" when absent */
+  char *source; /* owned: the run file's text */
+  struct gx_case *cases;
+  size_t count;
+  size_t duplicates; /* cases that resolved equal to an earlier one and were dropped */
+  char **texts;      /* texts that values point to, owned */
+  size_t text_count;
+};
+
+/* Reads a run file ("-": standard input), applies `--set` strings "path=value" in order, validates and expands.
+ * Every error goes to `errors` in one pass as file:line:column: message. Returns NULL when there was one. */
+struct gx_study *gx_runfile_read(const char *path, size_t sets, const char *const *set, FILE *errors);
+void gx_runfile_free(struct gx_study *study);
+
+struct gx_history {
+  size_t samples;
+  struct gx_sample *sample; /* owned */
+};
+
+struct gx_result {
+  struct gx_outcome outcome;
+  double dt;    /* s */
+  double steps; /* taken */
+  double time;  /* s, reached */
+  struct gx_measured measured;
+  double seconds; /* wall time of the steps, measures excluded */
+  double ns_per_particle_step;
+  struct gx_history history;
+};
+
+/* What a case will do, without running it. */
+struct gx_plan {
+  struct gx_outcome outcome; /* GX_REFUSED with the reason when it cannot run */
+  double dt, end;            /* s */
+  double steps;
+  double particles;
+  double stable_dt; /* s; NaN: unknown */
+};
+
+struct gx_plan gx_case_plan(const struct gx_case *one);
+/* Runs one case; never aborts. */
+struct gx_result gx_case_run(const struct gx_case *one);
+void gx_case_free(struct gx_result *result);
+
+/* Columns case, every parameter, every result; timing columns last and only if asked. results: [count]. */
+struct gx_table *gx_study_table(const struct gx_study *study, const struct gx_result *results, bool timing);
+
+#endif

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The table of a study: the same columns in the same order for every study (case, parameters, results). */
+#ifndef GRIDCROSS_TABLE_H
+#define GRIDCROSS_TABLE_H
+
+#include <gridcross/value.h>
+
+struct gx_column {
+  char *name;        /* owned; "mesh.cells", "result.status" */
+  char *unit;        /* owned; "" when none */
+  enum gx_type type; /* of its non-null values */
+};
+
+struct gx_table {
+  size_t columns, rows;
+  struct gx_column *column; /* [columns], owned */
+  struct gx_value *value;   /* [rows][columns] row-major, owned; texts owned by the table */
+  char **texts;             /* texts that values point to, owned */
+  size_t text_count, text_room;
+};
+
+/* A table of null values; NULL when memory runs out. Columns are named with gx_table_column. */
+struct gx_table *gx_table_create(size_t columns, size_t rows);
+void gx_table_free(struct gx_table *table);
+/* Copies name and unit. Returns 0, or -1 when memory runs out. */
+int gx_table_column(struct gx_table *table, size_t column, const char *name, const char *unit, enum gx_type type);
+/* Stores a value; copies text. Returns 0, or -1 when memory runs out. */
+int gx_table_set(struct gx_table *table, size_t row, size_t column, struct gx_value value);
+struct gx_value gx_table_get(const struct gx_table *table, size_t row, size_t column);
+/* Index of the column, or -1. */
+long gx_table_find(const struct gx_table *table, const char *name);
+
+#endif
