@@ -10,9 +10,9 @@ LAYERS = [["core"], ["bases", "materials", "problems"], ["spaces"], ["clocks"], 
 RANK = {folder: rank for rank, folders in enumerate(LAYERS) for folder in folders}
 # The folder that implements each public header.
 HOME = {
-    "status": "core", "particles": "core", "grid": "core", "value": "core", "table": "core", "basis": "bases",
-    "material": "materials", "problem": "problems", "space": "spaces", "clock": "clocks", "measure": "measures",
-    "parameter": "study", "study": "study", "store": "store", "compare": "view", "starter": "view",
+    "status": "core", "particles": "core", "grid": "core", "value": "core", "table": "core", "build": "core", "suggest": "core",
+    "basis": "bases", "material": "materials", "problem": "problems", "space": "spaces", "clock": "clocks",
+    "measure": "measures", "parameter": "study", "study": "study", "store": "store", "compare": "view", "starter": "view",
 }
 # Libraries that one file each may see.
 ONCE = {"yaml.h": [], "hdf5.h": [], "fftw3.h": []}
