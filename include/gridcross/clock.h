@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Clocks: time integrators as data. A clock is either rows of primitives or a Runge–Kutta tableau; one engine runs each kind
- * on any space. */
+/* Clocks: time integrators as data, run on any space by one engine. A clock is rows of primitives, or a splitting (which is
+ * rows with a regular pattern), or a Runge–Kutta tableau. */
 #ifndef GRIDCROSS_CLOCK_H
 #define GRIDCROSS_CLOCK_H
 
@@ -25,6 +25,14 @@ struct gx_row {
 
 enum { GX_MAX_STAGES = 16 };
 
+/* Drifts and kicks in turn: drift[0], kick[0], drift[1], ..., kick[stages - 1], drift[stages]. F and stress go with the drifts.
+ * As a Runge–Kutta–Nyström method: b = kick, c_j = drift[0] + ... + drift[j]. */
+struct gx_splitting {
+  int stages;
+  double drift[GX_MAX_STAGES + 1];
+  double kick[GX_MAX_STAGES];
+};
+
 struct gx_tableau {
   int stages;
   double a[GX_MAX_STAGES][GX_MAX_STAGES]; /* strictly lower triangular */
@@ -42,7 +50,9 @@ struct gx_clock {
   bool staggered;            /* velocity lives at half steps, starting at -dt/2 */
   bool first_order_defect;   /* per-step energy defect by berzins2022 E(94), else E(88) */
   double stability;          /* largest omega dt on x'' = -omega^2 x */
-  const struct gx_row *rows; /* ended by GX_END; NULL: use tableau */
+  /* exactly one of: */
+  const struct gx_row *rows; /* ended by GX_END */
+  const struct gx_splitting *splitting;
   const struct gx_tableau *tableau;
 };
 
