@@ -8,16 +8,6 @@
 
 #include <gridcross/space.h>
 
-enum gx_primitive {
-  GX_END,
-  GX_WEIGHTS,    /* W: weights at the current positions */
-  GX_PROJECT,    /* P: nodal mass and velocity */
-  GX_ACCELERATE, /* A: nodal acceleration */
-  GX_KICK,       /* K: velocities by coefficient * dt */
-  GX_STRAIN,     /* G: F and stress by coefficient * dt */
-  GX_DRIFT       /* X: positions by coefficient * dt */
-};
-
 struct gx_row {
   enum gx_primitive primitive;
   double coefficient;
@@ -47,11 +37,12 @@ struct gx_clock {
   int order;
   int stages; /* acceleration evaluations per step */
   bool symplectic;
-  bool staggered;            /* velocity lives at half steps, starting at -dt/2 */
-  bool first_order_defect;   /* per-step energy defect by berzins2022 E(94), else E(88) */
-  double stability;          /* largest omega dt on x'' = -omega^2 x */
-  /* exactly one of: */
-  const struct gx_row *rows; /* ended by GX_END */
+  bool staggered;          /* velocity lives at half steps, starting at -dt/2 */
+  bool first_order_defect; /* per-step energy defect by berzins2022 E(94), else E(88) */
+  double stability;        /* largest omega dt on x'' = -omega^2 x */
+  /* exactly one of rows, splitting, tableau: */
+  const struct gx_row *rows;       /* ended by GX_END */
+  const struct gx_row *plain_rows; /* with rows: what they become where weights never change; NULL: the same */
   const struct gx_splitting *splitting;
   const struct gx_tableau *tableau;
 };

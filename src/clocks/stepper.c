@@ -76,8 +76,8 @@ struct gx_stepper *gx_stepper_create(const struct gx_clock *clock, struct gx_spa
   if (!stepper) return NULL;
   *stepper = (struct gx_stepper){.clock = clock, .space = space};
   if (observer) stepper->observer = *observer;
-  if (clock->rows)
-    for (int i = 0; i == 0 || clock->rows[i - 1].primitive != GX_END; i++) stepper->rows[i] = clock->rows[i];
+  const struct gx_row *rows = clock->plain_rows && !space->kind->fixed_grid ? clock->plain_rows : clock->rows;
+  for (int i = 0; rows && (i == 0 || rows[i - 1].primitive != GX_END); i++) stepper->rows[i] = rows[i];
   if (clock->splitting) expand(clock->splitting, stepper->rows);
   if (clock->tableau && allocate_stages(stepper)) {
     free(stepper);
@@ -127,7 +127,7 @@ static const struct gx_row *advance(struct gx_stepper *stepper, const struct gx_
 {
   double span[GX_DRIFT + 1] = {0};
   enum gx_primitive last = GX_ACCELERATE;
-  for (; row->primitive > last; row++) {
+  for (; row->primitive > last && row->primitive <= GX_DRIFT; row++) {
     span[row->primitive] = row->coefficient * dt;
     last = row->primitive;
   }
@@ -142,12 +142,18 @@ static const struct gx_row *advance(struct gx_stepper *stepper, const struct gx_
 
 static enum gx_status step_rows(struct gx_stepper *stepper, double t, double dt)
 {
+  struct gx_space *space = stepper->space;
   double drifted = 0;
   for (const struct gx_row *row = stepper->rows; row->primitive != GX_END;) {
-    if (row->primitive <= GX_ACCELERATE)
+    if (row->primitive <= GX_ACCELERATE) {
       GX_TRY(ensure(stepper, (row++)->primitive, t + drifted));
-    else
+    } else if (row->primitive <= GX_DRIFT) {
       row = advance(stepper, row, dt, &drifted);
+    } else {
+      GX_TRY(space->kind->twofold(space, row->primitive, row->coefficient * dt));
+      if (row->primitive == GX_CLOSE) expire(stepper, GX_WEIGHTS, GX_ACCELERATE);
+      row++;
+    }
   }
   return GX_OK;
 }
