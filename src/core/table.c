@@ -78,6 +78,14 @@ struct gx_value gx_table_get(const struct gx_table *table, size_t row, size_t co
   return table->value[row * table->columns + column];
 }
 
+int gx_table_copy(struct gx_table *table, size_t column, const struct gx_table *from, size_t source)
+{
+  const struct gx_column *c = &from->column[source];
+  int failed = gx_table_column(table, column, c->name, c->unit, c->type);
+  for (size_t r = 0; r < from->rows && !failed; r++) failed = gx_table_set(table, r, column, gx_table_get(from, r, source));
+  return failed;
+}
+
 long gx_table_find(const struct gx_table *table, const char *name)
 {
   for (size_t c = 0; c < table->columns; c++)

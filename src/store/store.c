@@ -117,10 +117,9 @@ static struct gx_table *timing_table(const struct gx_study *study, const struct 
   int failed = !timing;
   const size_t from[] = {0, full ? full->columns - 2 : 0, full ? full->columns - 1 : 0};
   const char *const name[] = {"case", "seconds", "ns_per_particle_step"};
-  for (size_t c = 0; c < 3 && !failed; c++) {
-    failed = gx_table_column(timing, c, name[c], full->column[from[c]].unit, full->column[from[c]].type);
-    for (size_t r = 0; r < study->count && !failed; r++) failed = gx_table_set(timing, r, c, gx_table_get(full, r, from[c]));
-  }
+  for (size_t c = 0; c < 3 && !failed; c++)
+    failed = gx_table_copy(timing, c, full, from[c]) ||
+             gx_table_column(timing, c, name[c], full->column[from[c]].unit, full->column[from[c]].type);
   gx_table_free(full);
   if (!failed) return timing;
   gx_table_free(timing);
@@ -229,10 +228,7 @@ static struct gx_table *widen(struct gx_table *narrow)
 {
   struct gx_table *wide = gx_table_create(narrow->columns + 2, narrow->rows);
   int failed = !wide;
-  for (size_t c = 0; c < narrow->columns && !failed; c++) {
-    failed = gx_table_column(wide, c, narrow->column[c].name, narrow->column[c].unit, narrow->column[c].type);
-    for (size_t r = 0; r < narrow->rows && !failed; r++) failed = gx_table_set(wide, r, c, gx_table_get(narrow, r, c));
-  }
+  for (size_t c = 0; c < narrow->columns && !failed; c++) failed = gx_table_copy(wide, c, narrow, c);
   if (!failed)
     failed = gx_table_column(wide, wide->columns - 2, "result.seconds", "s", GX_REAL) ||
              gx_table_column(wide, wide->columns - 1, "result.ns_per_particle_step", "ns", GX_REAL);
