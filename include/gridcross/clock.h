@@ -52,12 +52,13 @@ const struct gx_clock *gx_clock_find(const char *name);
 /* Called with the body force and velocity of a stage: its weight (s) in the work integral. */
 struct gx_work_observer {
   void *context;
+  /* NULL: nobody asks */
   void (*power)(void *context, struct gx_space *space, double weight);
 };
 
 struct gx_stepper;
 
-/* NULL when memory runs out. observer may be NULL. space, clock and observer are borrowed. */
+/* NULL when memory runs out. observer may be NULL and is copied; space and clock are borrowed. */
 struct gx_stepper *gx_stepper_create(const struct gx_clock *clock, struct gx_space *space,
                                      const struct gx_work_observer *observer);
 void gx_stepper_free(struct gx_stepper *stepper);

@@ -27,23 +27,11 @@ struct gx_grid {
   size_t stored;             /* entries of a field: product of axis[d].stored */
 };
 
-/* Adds periodic images to the functions they stand for. field: [stored]. */
+/* Moves the contents of periodic images to the functions they stand for, leaving zeros. field: [stored]. */
 void gx_grid_fold(const struct gx_grid *grid, double *field);
 /* Copies functions to their periodic images. field: [stored]. */
 void gx_grid_spread(const struct gx_grid *grid, double *field);
 /* Zeroes the functions at the ends of bounded direction d: a fixed end. field: [stored]. */
 void gx_grid_fix(const struct gx_grid *grid, int d, double *field);
-
-/* Cell of coordinate x along the axis: wrapped when periodic, clamped to the end cells when bounded. */
-static inline int gx_grid_cell(const struct gx_axis *axis, double x)
-{
-  double s = x * axis->cells;
-  int c = (int)s - ((double)(int)s > s);
-  if (axis->periodic) {
-    c %= axis->cells;
-    return c < 0 ? c + axis->cells : c;
-  }
-  return c < 0 ? 0 : c >= axis->cells ? axis->cells - 1 : c;
-}
 
 #endif

@@ -28,4 +28,18 @@ struct gx_measured {
   double drift; /* max |E - E0 - work| / E0; NaN when E0 = 0 */
 };
 
+struct gx_measure;
+
+/* Observes a space that a clock advances. cells: per direction, of the grid whose crossings are counted; NULL: particles do not
+ * move through a grid. NULL when memory runs out; all is borrowed. */
+struct gx_measure *gx_measure_create(struct gx_space *space, const struct gx_clock *clock, const int *cells,
+                                     enum gx_measure_level level);
+void gx_measure_free(struct gx_measure *measure);
+/* What the stepper must call for the work of the body force. */
+struct gx_work_observer gx_measure_work(struct gx_measure *measure);
+/* Takes the sample at time t: the start, then ends of steps, every one of them unless only the last matters. */
+enum gx_status gx_measure_take(struct gx_measure *measure, struct gx_stepper *stepper, double t, double dt);
+/* What was measured so far. */
+const struct gx_measured *gx_measure_result(const struct gx_measure *measure);
+
 #endif

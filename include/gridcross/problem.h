@@ -31,7 +31,7 @@ struct gx_problem {
   const char *name;
   const char *help;
   const char *source;
-  const struct gx_material *const *material;
+  const struct gx_material *material;
   int max_dim;
   bool has_mode, has_directions, has_poisson; /* which problem.* parameters apply */
   bool periodic;                              /* default boundary */

@@ -52,6 +52,8 @@ struct gx_space_kind {
   /* Runge–Kutta view: the state, and its time derivatives after W, P, A. rate: [state.count] arrays. */
   void (*state)(struct gx_space *space, struct gx_state *state);
   void (*rates)(struct gx_space *space, double *const *rate);
+  /* Kinetic energy of the carrier of velocity: nodes with their row-sum mass, J. */
+  double (*kinetic)(const struct gx_space *space);
   /* Brings particles up to date with a state that lives on nodes; NULL: nothing to do. */
   void (*settle)(struct gx_space *space);
   /* Acceleration of the particles after accelerate. a: [dim][n], m/s^2. */

@@ -22,8 +22,10 @@ struct gx_study {
   char *source; /* owned: the run file's text */
   struct gx_case *cases;
   size_t count;
-  size_t duplicates; /* cases that resolved equal to an earlier one and were dropped */
-  char **texts;      /* texts that values point to, owned */
+  size_t duplicates;                        /* cases that resolved equal to an earlier one and were dropped */
+  enum gx_parameter_id axis[GX_PARAMETERS]; /* parameters that the file varies and that differ between cases, in file order */
+  size_t axes;
+  char **texts; /* texts that values point to, owned */
   size_t text_count;
 };
 

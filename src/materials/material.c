@@ -1,9 +1,41 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The family of materials. */
+/* The family of materials, Lamé parameters, and Cauchy stress. */
 #include <gridcross/material.h>
 
 #include "../core/family.h"
+#include "../core/tensor.h"
 #include "material_family.h"
 
 #define GX_FAMILY_DECLARE(member) extern const struct gx_material gx_##member;
 GX_FAMILY(gx_material, gx_material, GX_MATERIAL_FAMILY)
+
+struct gx_moduli gx_material_moduli(double young, double poisson, double density)
+{
+  return (struct gx_moduli){
+      .young = young,
+      .lambda = young * poisson / ((1 + poisson) * (1 - 2 * poisson)),
+      .mu = young / (2 * (1 + poisson)),
+      .density = density,
+  };
+}
+
+GX_CORE void cauchy(const int dim, size_t n, double *const *F, double *const *P, double *const *sigma)
+{
+  for (size_t p = 0; p < n; p++) {
+    double f[GX_MAX_TENSOR], c[GX_MAX_TENSOR], s[GX_MAX_TENSOR];
+    gx_tensor_load(dim, F, p, f);
+    double J = gx_tensor_cofactor(dim, f, c);
+    for (int i = 0; i < dim; i++)
+      for (int j = 0; j < dim; j++) {
+        double sum = 0;
+        for (int k = 0; k < dim; k++) sum += P[i * dim + k][p] * f[j * dim + k];
+        s[i * dim + j] = sum / J;
+      }
+    gx_tensor_store(dim, sigma, p, s);
+  }
+}
+
+void gx_material_cauchy(int dimension, size_t n, double *const *F, double *const *P, double *const *sigma)
+{
+  GX_FOR_DIM(dimension, cauchy(dim, n, F, P, sigma))
+}

@@ -17,7 +17,7 @@ struct gx_posed *gx_problem_pose(const struct gx_problem *problem, const struct 
   struct gx_posed *posed = calloc(1, sizeof *posed);
   if (!posed) return NULL;
   *posed = (struct gx_posed){.problem = problem, .options = *options, .n = n};
-  posed->speed = (*problem->material)->wave_speed(&options->moduli);
+  posed->speed = problem->material->wave_speed(&options->moduli);
   for (int d = 0; d < options->dim; d++) {
     posed->sine[d] = malloc((n + 1) * sizeof(double));
     posed->cosine[d] = malloc((n + 1) * sizeof(double));

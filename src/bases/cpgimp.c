@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* cpGIMP: generalized interpolation whose particle domains stretch with the diagonal of F. */
+#include <gridcross/basis.h>
+
+#include "gimp.h"
+
+GX_CLONES static long evaluate(const struct gx_axis *axis, size_t n, const double *restrict x, const double *restrict half,
+                               int *restrict first, double *restrict S, double *restrict D)
+{
+  const bool periodic = axis->periodic;
+  const int cells = axis->cells;
+  const double widest = 0.5 * (1 + 1e-12);
+  int outside = 0;
+  for (size_t p = 0; p < n; p++) {
+    double l = half[p] * cells;
+    outside |= !(l > 0 && l <= widest);
+    gx_gimp_weights(cells, n, p, gx_locate(periodic, cells, x[p]), l, first, S, D);
+  }
+  if (outside)
+    for (size_t p = 0; p < n; p++)
+      if (!(half[p] > 0 && half[p] * cells <= widest)) return (long)p;
+  return -1;
+}
+
+const struct gx_basis gx_cpgimp = {
+    .name = "cpgimp",
+    .help = "GIMP, particle domains stretched by F; at most one cell wide",
+    .source = "Wallstedt & Guilkey 2008; berzins2021, berzins2022",
+    .has_domain = true,
+    .deforms = true,
+    .layout = gx_gimp_layout,
+    .evaluate = evaluate,
+};

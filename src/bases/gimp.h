@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* GIMP: the hat function averaged over a particle domain of half width l <= h/2. A particle meets the three nodes about the
+ * nearest one; function i is node i - 1, so that the ghost node behind a fixed end has index 0. */
+#ifndef GRIDCROSS_BASES_GIMP_H
+#define GRIDCROSS_BASES_GIMP_H
+
+#include <gridcross/basis.h>
+
+#include "../core/kernel.h"
+#include "locate.h"
+
+static inline void gx_gimp_layout(struct gx_axis *axis)
+{
+  axis->support = 3;
+  axis->functions = axis->periodic ? axis->cells : axis->cells + 3;
+  axis->stored = axis->cells + 3;
+  axis->edge = 2;
+}
+
+/* Position s and half width l in units of h. With t = s - nearest node, the share of the left node is
+ * a^2/(4l) + max(-t - l, 0), a = l - t held to [0, 2l]; the right node mirrors it; the middle takes the rest. */
+GX_CORE void gx_gimp_weights(int cells, size_t n, size_t p, double s, double l, int *first, double *S, double *D)
+{
+  int nearest = (int)(s + 0.5);
+  double t = s - nearest;
+  double a = l - t, b = l + t;
+  a = a < 0 ? 0 : a > 2 * l ? 2 * l : a;
+  b = b < 0 ? 0 : b > 2 * l ? 2 * l : b;
+  double scale = 0.5 / l;
+  double slope_left = a * scale, slope_right = b * scale;
+  double beyond_left = -t - l, beyond_right = t - l;
+  double left = 0.5 * a * slope_left + (beyond_left > 0 ? beyond_left : 0);
+  double right = 0.5 * b * slope_right + (beyond_right > 0 ? beyond_right : 0);
+  first[p] = nearest;
+  S[p] = left;
+  S[n + p] = 1 - left - right;
+  S[2 * n + p] = right;
+  D[p] = -slope_left * cells;
+  D[n + p] = (slope_left - slope_right) * cells;
+  D[2 * n + p] = slope_right * cells;
+}
+
+#endif

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Attributes of kernels. A core is written once and inlined with constant dimension and support. */
+#ifndef GRIDCROSS_CORE_KERNEL_H
+#define GRIDCROSS_CORE_KERNEL_H
+
+/* An elementwise kernel compiled for several instruction sets; equal bits, since nothing contracts to FMA. */
+#if GX_HAVE_CLONES
+#define GX_CLONES __attribute__((target_clones("avx2", "default")))
+#else
+#define GX_CLONES
+#endif
+
+#define GX_CORE static inline __attribute__((always_inline))
+
+/* Runs statement with `dim` a constant. */
+#define GX_FOR_DIM(value, statement)                                                                                             \
+  switch (value) {                                                                                                               \
+  case 1: {                                                                                                                      \
+    enum { dim = 1 };                                                                                                            \
+    statement;                                                                                                                   \
+    break;                                                                                                                       \
+  }                                                                                                                              \
+  case 2: {                                                                                                                      \
+    enum { dim = 2 };                                                                                                            \
+    statement;                                                                                                                   \
+    break;                                                                                                                       \
+  }                                                                                                                              \
+  default: {                                                                                                                     \
+    enum { dim = 3 };                                                                                                            \
+    statement;                                                                                                                   \
+    break;                                                                                                                       \
+  }                                                                                                                              \
+  }
+
+#endif

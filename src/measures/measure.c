@@ -1,0 +1,233 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Samples a run at ends of steps: error norms against the exact solution, energies, the energy defect of a step, crossings.
+ * Velocities that live at half steps are brought to the end of step with half a kick. */
+#include <gridcross/measure.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../core/kernel.h"
+#include "../core/vector.h"
+
+struct tensor_field {
+  double *component[GX_MAX_TENSOR];
+};
+struct vector_field {
+  double *component[GX_MAX_DIM];
+};
+
+struct gx_measure {
+  struct gx_space *space;
+  const struct gx_clock *clock;
+  enum gx_measure_level level;
+  bool started;
+  int dim;
+  size_t n;
+  /* scratch and memory of the last sample, [n] each */
+  struct vector_field v, a, v_before, a_before, exact_u, exact_v;
+  struct tensor_field exact_F, exact_stress, stress, P;
+  double *energy;
+  struct vector_field cell; /* at the last sample, unwrapped */
+  const int *cells;         /* per direction; NULL: particles do not move through the grid */
+  double work;              /* of the kicks done so far, J */
+  double start_energy;      /* kinetic and elastic at the first sample, J */
+  double start_balance;     /* the same less work, J */
+  struct gx_measured result;
+  double *block;
+};
+
+/* Hands out the component arrays one after another. */
+static double *place(double **component, int count, size_t n, double *at)
+{
+  for (int i = 0; i < count; i++, at += n) component[i] = at;
+  return at;
+}
+
+struct gx_measure *gx_measure_create(struct gx_space *space, const struct gx_clock *clock, const int *cells,
+                                     enum gx_measure_level level)
+{
+  struct gx_measure *measure = calloc(1, sizeof *measure);
+  if (!measure) return NULL;
+  int dim = space->particles->dim, tensor = dim * dim;
+  size_t n = space->particles->n;
+  *measure = (struct gx_measure){.space = space, .clock = clock, .level = level, .cells = cells, .dim = dim, .n = n};
+  measure->block = calloc(n * (size_t)(7 * dim + 4 * tensor + 1), sizeof(double));
+  if (!measure->block) {
+    free(measure);
+    return NULL;
+  }
+  double *at = measure->block;
+  struct vector_field *vectors[] = {&measure->v,       &measure->a,       &measure->v_before, &measure->a_before,
+                                    &measure->exact_u, &measure->exact_v, &measure->cell};
+  for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) at = place(vectors[i]->component, dim, n, at);
+  struct tensor_field *tensors[] = {&measure->exact_F, &measure->exact_stress, &measure->stress, &measure->P};
+  for (size_t i = 0; i < sizeof tensors / sizeof *tensors; i++) at = place(tensors[i]->component, tensor, n, at);
+  measure->energy = at;
+  return measure;
+}
+
+void gx_measure_free(struct gx_measure *measure)
+{
+  if (!measure) return;
+  free(measure->block);
+  free(measure);
+}
+
+const struct gx_measured *gx_measure_result(const struct gx_measure *measure)
+{
+  return &measure->result;
+}
+
+/* Power of the body force at the particles' present velocity, W. */
+static double body_power(const struct gx_particles *particles, double *const *v)
+{
+  double power = 0;
+  for (int d = 0; d < particles->dim; d++)
+    for (size_t p = 0; p < particles->n; p++) power += particles->m[p] * particles->b[d][p] * v[d][p];
+  return power;
+}
+
+static void add_work(void *context, struct gx_space *space, double weight)
+{
+  struct gx_measure *measure = context;
+  if (!space->posed->problem->body) return;
+  if (space->kind->settle) space->kind->settle(space);
+  measure->work += weight * body_power(space->particles, space->particles->v);
+}
+
+struct gx_work_observer gx_measure_work(struct gx_measure *measure)
+{
+  return (struct gx_work_observer){measure, measure->level == GX_MEASURE_ALL ? add_work : NULL};
+}
+
+static void norms(const struct gx_measure *measure, int components, double *const *value, double *const *exact, double *error)
+{
+  double largest = 0, sum = 0;
+  for (size_t p = 0; p < measure->n; p++) {
+    double square = 0;
+    for (int k = 0; k < components; k++) {
+      double e = value[k][p] - exact[k][p];
+      square += e * e;
+    }
+    if (!(square <= largest)) largest = square;
+    sum += square;
+  }
+  error[GX_INF] = sqrt(largest);
+  error[GX_RMS] = sqrt(sum / (double)measure->n);
+  error[GX_L2N] = sqrt(sum) / (double)measure->n;
+}
+
+static void errors(struct gx_measure *measure, double t, double error[GX_QUANTITIES][GX_NORMS])
+{
+  const struct gx_particles *particles = measure->space->particles;
+  const struct gx_posed *posed = measure->space->posed;
+  const struct gx_material *material = posed->problem->material;
+  const struct gx_moduli *moduli = &posed->options.moduli;
+  int dim = measure->dim;
+  size_t n = measure->n;
+  double **P = measure->P.component;
+  posed->problem->exact(posed, t, measure->exact_u.component, measure->exact_v.component, measure->exact_F.component);
+  material->piola(moduli, dim, n, measure->exact_F.component, P);
+  gx_material_cauchy(dim, n, measure->exact_F.component, P, measure->exact_stress.component);
+  gx_material_cauchy(dim, n, particles->F, particles->P, measure->stress.component);
+  norms(measure, dim, particles->u, measure->exact_u.component, error[GX_DISPLACEMENT]);
+  norms(measure, dim, measure->v.component, measure->exact_v.component, error[GX_VELOCITY]);
+  norms(measure, dim * dim, measure->stress.component, measure->exact_stress.component, error[GX_STRESS]);
+}
+
+static void energies(struct gx_measure *measure, double dt, struct gx_sample *sample)
+{
+  const struct gx_particles *particles = measure->space->particles;
+  const struct gx_posed *posed = measure->space->posed;
+  posed->problem->material->energy(&posed->options.moduli, measure->dim, measure->n, particles->F, measure->energy);
+  double kinetic = 0, elastic = 0, defect = 0;
+  for (size_t p = 0; p < measure->n; p++) elastic += particles->V0[p] * measure->energy[p];
+  for (int d = 0; d < measure->dim; d++) {
+    const double *v = measure->v.component[d], *v0 = measure->v_before.component[d];
+    const double *a = measure->a.component[d], *a0 = measure->a_before.component[d];
+    for (size_t p = 0; p < measure->n; p++) {
+      kinetic += 0.5 * particles->m[p] * v[p] * v[p];
+      double pull = measure->clock->first_order_defect ? 0.5 * v0[p] : 0.25 * (v[p] - v0[p]);
+      defect += particles->m[p] * pull * (a[p] - a0[p]);
+    }
+  }
+  sample->kinetic = kinetic;
+  sample->elastic = elastic;
+  sample->kinetic_nodes = measure->space->kind->kinetic(measure->space);
+  sample->defect = measure->started ? fabs(dt * defect) : NAN;
+  sample->work = measure->work;
+  if (measure->clock->staggered && posed->problem->body) /* the half kick that the sample's velocity is ahead of the run's */
+    sample->work += 0.25 * dt * (body_power(particles, particles->v) + body_power(particles, measure->v.component));
+}
+
+/* Velocity and acceleration of the particles at the end of step, and the stress that belongs to their F. */
+static enum gx_status synchronise(struct gx_measure *measure, struct gx_stepper *stepper, double t, double dt)
+{
+  struct gx_space *space = measure->space;
+  double ahead = measure->clock->staggered ? 0.5 * dt : 0;
+  GX_TRY(gx_stepper_accelerate(stepper, t));
+  if (space->kind->settle) space->kind->settle(space);
+  for (int d = 0; d < measure->dim; d++) {
+    memcpy(measure->a_before.component[d], measure->a.component[d], measure->n * sizeof(double));
+    memcpy(measure->v_before.component[d], measure->v.component[d], measure->n * sizeof(double));
+    memcpy(measure->v.component[d], space->particles->v[d], measure->n * sizeof(double));
+  }
+  if (!measure->clock->staggered && measure->level != GX_MEASURE_ALL) return GX_OK;
+  space->kind->particle_acceleration(space, measure->a.component);
+  for (int d = 0; d < measure->dim; d++) gx_vector_add(measure->n, ahead, measure->a.component[d], measure->v.component[d]);
+  return GX_OK;
+}
+
+GX_CLONES static double moved_cell(size_t n, const double *restrict X, const double *restrict u, double cells,
+                                   double *restrict cell)
+{
+  double moved = 0;
+  for (size_t p = 0; p < n; p++) {
+    double now = floor((X[p] + u[p]) * cells);
+    moved += now != cell[p];
+    cell[p] = now;
+  }
+  return moved;
+}
+
+static double crossings(struct gx_measure *measure)
+{
+  const struct gx_particles *particles = measure->space->particles;
+  if (!measure->cells) return 0;
+  double moved = 0;
+  for (int d = 0; d < measure->dim; d++)
+    moved += moved_cell(measure->n, particles->X[d], particles->u[d], measure->cells[d], measure->cell.component[d]);
+  return measure->started ? measure->result.last.crossings + moved : 0;
+}
+
+static void keep_extremes(struct gx_measure *measure, const struct gx_sample *sample)
+{
+  struct gx_measured *result = &measure->result;
+  for (int q = 0; q < GX_QUANTITIES && measure->started; q++)
+    for (int k = 0; k < GX_NORMS; k++) result->max_error[q][k] = fmax(result->max_error[q][k], sample->error[q][k]);
+  if (measure->level != GX_MEASURE_ALL) return;
+  double balance = sample->kinetic + sample->elastic - sample->work;
+  if (!measure->started) {
+    measure->start_balance = balance;
+    measure->start_energy = sample->kinetic + sample->elastic;
+    result->drift = measure->start_energy > 0 ? 0 : NAN;
+    return;
+  }
+  result->max_defect = fmax(result->max_defect, sample->defect);
+  if (measure->start_energy > 0)
+    result->drift = fmax(result->drift, fabs(balance - measure->start_balance) / measure->start_energy);
+}
+
+enum gx_status gx_measure_take(struct gx_measure *measure, struct gx_stepper *stepper, double t, double dt)
+{
+  struct gx_sample sample = {.time = t, .kinetic = NAN, .kinetic_nodes = NAN, .elastic = NAN, .work = NAN, .defect = NAN};
+  GX_TRY(synchronise(measure, stepper, t, dt));
+  errors(measure, t, sample.error);
+  if (measure->level == GX_MEASURE_ALL) energies(measure, dt, &sample);
+  sample.crossings = crossings(measure);
+  keep_extremes(measure, &sample);
+  measure->result.last = sample;
+  measure->started = true;
+  return GX_OK;
+}

@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Manufactured standing waves along each active direction, u_d = A sin(2 pi X_d) cos(c pi t + phi_d), on the compressible
+ * neo-Hookean solid. F is diagonal, so with J = prod F_e the body force b = d2u/dt2 - Div P / rho0 is
+ * b_d = u_d pi^2 (4 (mu + (mu + lambda (1 - ln J)) / F_d^2) / rho0 - c^2). */
+#include "axis_aligned.h"
+
+#include <stdbool.h>
+
+#include "standing_wave.h"
+
+static double angle(const struct gx_posed *posed, int d, double t)
+{
+  return M_PI * posed->speed * t + posed->options.phase[d];
+}
+
+void gx_axis_aligned_exact(const struct gx_posed *posed, double t, double *const *u, double *const *v, double *const *F)
+{
+  double factor[GX_MAX_DIM], rate[GX_MAX_DIM];
+  for (int d = 0; d < posed->options.dim; d++) {
+    factor[d] = cos(angle(posed, d, t));
+    rate[d] = -M_PI * posed->speed * sin(angle(posed, d, t));
+  }
+  gx_standing_wave_exact(posed, factor, rate, u, v, F);
+}
+
+/* Without a bulk term each direction depends on its own F_d alone. */
+void gx_axis_aligned_body(const struct gx_posed *posed, double t, double *const *b)
+{
+  const struct gx_problem_options *options = &posed->options;
+  const double mu = options->moduli.mu, lambda = options->moduli.lambda, density = options->moduli.density;
+  double amplitude[GX_MAX_DIM];
+  for (int d = 0; d < options->dim; d++) amplitude[d] = options->active[d] ? options->amplitude * cos(angle(posed, d, t)) : 0;
+  const double stiff = 4 * M_PI * M_PI / density, inertia = M_PI * M_PI * posed->speed * posed->speed;
+  for (int d = 0; d < options->dim; d++) {
+    const double *sine = posed->sine[d], *cosine = posed->cosine[d];
+    const double A = amplitude[d], slope = 2 * M_PI * A;
+    double *restrict out = b[d];
+    for (size_t p = 0; p < posed->n; p++) {
+      double F = 1 + slope * cosine[p], bulk = 0;
+      if (lambda != 0) {
+        double J = 1;
+        for (int e = 0; e < options->dim; e++) J *= 1 + 2 * M_PI * amplitude[e] * posed->cosine[e][p];
+        bulk = lambda * (1 - log(J));
+      }
+      out[p] = A * sine[p] * (stiff * (mu + (mu + bulk) / (F * F)) - inertia);
+    }
+  }
+}
+
+const struct gx_problem gx_axis_aligned = {
+    .name = "axis-aligned",
+    .help = "standing waves along each active direction, neo-Hookean solid, 1-D to 3-D",
+    .source = "steffen2010 §6.1, extended to dim directions and a bulk modulus",
+    .material = &gx_neo_hookean,
+    .max_dim = 3,
+    .has_directions = true,
+    .has_poisson = true,
+    .periodic = true,
+    .cycles = 2,
+    .exact = gx_axis_aligned_exact,
+    .body = gx_axis_aligned_body,
+};

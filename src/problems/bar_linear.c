@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Linear bar: u = A sin(2 pi m X) sin(2 pi m c t), c = sqrt(E/rho0), no body force (berzins2021 §4, berzins2022 §7).
+ * The papers' E is 4 times the modulus here. */
+#include "standing_wave.h"
+
+extern const struct gx_material gx_linear_elastic;
+
+static void exact(const struct gx_posed *posed, double t, double *const *u, double *const *v, double *const *F)
+{
+  double omega = 2 * M_PI * posed->options.mode * posed->speed;
+  gx_standing_wave_exact(posed, (double[]){sin(omega * t)}, (double[]){omega * cos(omega * t)}, u, v, F);
+}
+
+const struct gx_problem gx_bar_linear = {
+    .name = "bar-linear",
+    .help = "free vibration of a linear bar from its straight state",
+    .source = "berzins2021 §4, berzins2022 §7",
+    .material = &gx_linear_elastic,
+    .max_dim = 1,
+    .has_mode = true,
+    .cycles = 1,
+    .exact = exact,
+};

@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Moving-mesh (total Lagrangian) MPM, steffen2010 S(50)-S(61): weights at the reference positions X, computed once,
+ *   F_p = I + sum u_i D_ip,  a_i = M^-1 sum (-V0 P_p D_ip + m_p b_p S_ip),  v_i += dt a_i,  u_i += dt v_i.
+ * projection once: the state is (u_i, v_i) and particles sample it, x_p = X_p + sum S_ip u_i, v_p = sum S_ip v_i.
+ * projection each-step: the paper to the letter, v_i = M^-1 sum m_p v_p S_ip each step, u_p and v_p incremented. */
+#include "mesh.h"
+
+#include <string.h>
+
+#include "../core/kernel.h"
+#include "../core/vector.h"
+
+static enum gx_status create(struct gx_space **space, const struct gx_space_options *options, struct gx_particles *particles,
+                             const struct gx_posed *posed, struct gx_outcome *outcome)
+{
+  extern const struct gx_space_kind gx_moving_mesh;
+  struct gx_mesh *mesh = NULL;
+  GX_TRY(gx_mesh_create(&mesh, sizeof *mesh, &gx_moving_mesh, options, particles, posed, outcome));
+  *space = &mesh->space;
+  posed->problem->material->piola(&posed->options.moduli, particles->dim, particles->n, particles->F, particles->P);
+  GX_TRY(gx_mesh_weigh(mesh, NULL, NULL));
+  GX_TRY(gx_mesh_assemble(mesh, particles->u, mesh->u));
+  gx_mesh_project(mesh, particles->v, mesh->v);
+  return GX_OK;
+}
+
+static enum gx_status weights(struct gx_space *space)
+{
+  (void)space;
+  return GX_OK;
+}
+
+static enum gx_status project(struct gx_space *space)
+{
+  struct gx_mesh *mesh = (struct gx_mesh *)space;
+  if (mesh->options.each_step) gx_mesh_project(mesh, space->particles->v, mesh->v);
+  return GX_OK;
+}
+
+static void deformation_gradient(struct gx_mesh *mesh)
+{
+  struct gx_particles *particles = mesh->space.particles;
+  int dim = particles->dim;
+  gx_transfer_gather_gradient(&mesh->weights, mesh->u, particles->F);
+  for (int d = 0; d < dim; d++) {
+    double *F = particles->F[d * dim + d];
+    for (size_t p = 0; p < particles->n; p++) F[p] += 1;
+  }
+}
+
+GX_CLONES static void nominal(size_t n, const double *restrict V0, const double *restrict P, double *restrict T)
+{
+  for (size_t p = 0; p < n; p++) T[p] = -V0[p] * P[p];
+}
+
+static enum gx_status accelerate(struct gx_space *space, double t)
+{
+  struct gx_mesh *mesh = (struct gx_mesh *)space;
+  struct gx_particles *particles = space->particles;
+  const struct gx_posed *posed = space->posed;
+  int dim = particles->dim;
+  if (!mesh->options.stress_rate) {
+    deformation_gradient(mesh);
+    long tangled = posed->problem->material->piola(&posed->options.moduli, dim, particles->n, particles->F, particles->P);
+    if (tangled >= 0)
+      return gx_status_set(space->outcome, GX_TANGLED, tangled, "det F of a particle is %g",
+                           gx_particles_jacobian(particles, (size_t)tangled));
+  }
+  for (int k = 0; k < dim * dim; k++) nominal(particles->n, particles->V0, particles->P[k], mesh->T[k]);
+  gx_mesh_accelerate(mesh, t);
+  return GX_OK;
+}
+
+/* dP/dt at the current F for dF/dt = grad v. */
+static void rate_of_stress(struct gx_mesh *mesh, double *const *rate_P)
+{
+  struct gx_particles *particles = mesh->space.particles;
+  const struct gx_posed *posed = mesh->space.posed;
+  deformation_gradient(mesh);
+  gx_transfer_gather_gradient(&mesh->weights, mesh->v, mesh->gradient);
+  posed->problem->material->piola_rate(&posed->options.moduli, particles->dim, particles->n, particles->F, mesh->gradient,
+                                       rate_P);
+}
+
+static void advance(struct gx_space *space, double kick, double strain, double drift)
+{
+  struct gx_mesh *mesh = (struct gx_mesh *)space;
+  struct gx_particles *particles = space->particles;
+  int dim = particles->dim;
+  size_t n = particles->n, nodes = mesh->grid.stored;
+  bool carry = mesh->options.each_step;
+  double flip = mesh->options.pic ? 0 : mesh->options.flip;
+  for (int d = 0; d < dim && kick != 0; d++) gx_vector_add(nodes, kick, mesh->a[d], mesh->v[d]);
+  if (strain != 0 && mesh->options.stress_rate) {
+    rate_of_stress(mesh, mesh->rate_P);
+    for (int k = 0; k < dim * dim; k++) gx_vector_add(n, strain, mesh->rate_P[k], particles->P[k]);
+  }
+  if (carry) {
+    gx_transfer_gather(&mesh->weights, mesh->a, mesh->gathered_a);
+    gx_transfer_gather(&mesh->weights, mesh->v, mesh->gathered_v);
+  }
+  for (int d = 0; d < dim && carry && kick != 0; d++) {
+    gx_vector_add(n, kick, mesh->gathered_a[d], particles->v[d]);
+    for (size_t p = 0; p < n && flip < 1; p++)
+      particles->v[d][p] = flip * particles->v[d][p] + (1 - flip) * mesh->gathered_v[d][p];
+  }
+  for (int d = 0; d < dim && drift != 0; d++) {
+    gx_vector_add(nodes, drift, mesh->v[d], mesh->u[d]);
+    if (carry) gx_vector_add(n, drift, mesh->options.particle_motion ? particles->v[d] : mesh->gathered_v[d], particles->u[d]);
+  }
+}
+
+static void settle(struct gx_space *space)
+{
+  struct gx_mesh *mesh = (struct gx_mesh *)space;
+  deformation_gradient(mesh);
+  if (mesh->options.each_step) return;
+  gx_transfer_gather(&mesh->weights, mesh->u, space->particles->u);
+  gx_transfer_gather(&mesh->weights, mesh->v, space->particles->v);
+}
+
+static void state(struct gx_space *space, struct gx_state *list)
+{
+  struct gx_mesh *mesh = (struct gx_mesh *)space;
+  struct gx_particles *particles = space->particles;
+  int dim = particles->dim;
+  list->count = 0;
+  gx_mesh_append(list, dim, mesh->u, mesh->grid.stored);
+  if (mesh->options.each_step) {
+    gx_mesh_append(list, dim, particles->v, particles->n);
+    gx_mesh_append(list, dim, particles->u, particles->n);
+  } else {
+    gx_mesh_append(list, dim, mesh->v, mesh->grid.stored);
+  }
+  if (mesh->options.stress_rate) gx_mesh_append(list, dim * dim, particles->P, particles->n);
+}
+
+static void rates(struct gx_space *space, double *const *rate)
+{
+  struct gx_mesh *mesh = (struct gx_mesh *)space;
+  struct gx_particles *particles = space->particles;
+  int dim = particles->dim;
+  for (int d = 0; d < dim; d++) memcpy(rate[d], mesh->v[d], mesh->grid.stored * sizeof(double));
+  rate += dim;
+  if (mesh->options.each_step) {
+    gx_transfer_gather(&mesh->weights, mesh->a, rate);
+    if (mesh->options.particle_motion)
+      for (int d = 0; d < dim; d++) memcpy(rate[dim + d], particles->v[d], particles->n * sizeof(double));
+    else
+      gx_transfer_gather(&mesh->weights, mesh->v, rate + dim);
+    rate += 2 * dim;
+  } else {
+    for (int d = 0; d < dim; d++) memcpy(rate[d], mesh->a[d], mesh->grid.stored * sizeof(double));
+    rate += dim;
+  }
+  if (mesh->options.stress_rate) rate_of_stress(mesh, rate);
+}
+
+const struct gx_space_kind gx_moving_mesh = {
+    .name = "moving-mesh",
+    .help = "total Lagrangian MPM: gradients in the reference configuration, first Piola-Kirchhoff stress",
+    .source = "steffen2010 S(50)-S(61)",
+    .create = create,
+    .free = gx_mesh_free,
+    .weights = weights,
+    .project = project,
+    .accelerate = accelerate,
+    .advance = advance,
+    .state = state,
+    .rates = rates,
+    .kinetic = gx_mesh_kinetic,
+    .settle = settle,
+    .particle_acceleration = gx_mesh_particle_acceleration,
+};

@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Standard MPM on a fixed grid, steffen2010 S(15)-S(22): weights at the current positions x = X + u,
+ *   m_i = sum m_p S_ip,  v_i = M^-1 sum m_p v_p S_ip,  a_i = M^-1 sum (-V_p sigma_p D_ip + m_p b_p S_ip),
+ *   v_p += dt sum S_ip a_i,  F_p <- (I + dt sum v_i D_ip) F_p,  x_p += dt sum S_ip v_i.
+ * V sigma = V0 P F^T, so P is the only stress that is kept. */
+#include "mesh.h"
+
+#include "../core/tensor.h"
+#include "../core/vector.h"
+
+static enum gx_status weights(struct gx_space *space)
+{
+  return gx_mesh_weigh((struct gx_mesh *)space, space->particles->u, space->particles->F);
+}
+
+static enum gx_status project(struct gx_space *space)
+{
+  struct gx_mesh *mesh = (struct gx_mesh *)space;
+  return gx_mesh_assemble(mesh, mesh->options.each_step ? space->particles->v : NULL, mesh->v);
+}
+
+static enum gx_status create(struct gx_space **space, const struct gx_space_options *options, struct gx_particles *particles,
+                             const struct gx_posed *posed, struct gx_outcome *outcome)
+{
+  extern const struct gx_space_kind gx_standard;
+  struct gx_mesh *mesh = NULL;
+  GX_TRY(gx_mesh_create(&mesh, sizeof *mesh, &gx_standard, options, particles, posed, outcome));
+  *space = &mesh->space;
+  posed->problem->material->piola(&posed->options.moduli, particles->dim, particles->n, particles->F, particles->P);
+  GX_TRY(weights(*space));
+  return gx_mesh_assemble(mesh, particles->v, mesh->v);
+}
+
+/* T = -V0 P F^T = -V sigma */
+GX_CORE void kirchhoff_points(const int dim, const struct gx_particles *particles, double *const *T)
+{
+  const double *F[GX_MAX_TENSOR], *P[GX_MAX_TENSOR], *V0 = particles->V0;
+  double *restrict out[GX_MAX_TENSOR];
+  for (int k = 0; k < dim * dim; k++) {
+    F[k] = particles->F[k];
+    P[k] = particles->P[k];
+    out[k] = T[k];
+  }
+  for (size_t p = 0; p < particles->n; p++)
+    for (int i = 0; i < dim; i++)
+      for (int j = 0; j < dim; j++) {
+        double sum = 0;
+        for (int k = 0; k < dim; k++) sum += P[i * dim + k][p] * F[j * dim + k][p];
+        out[i * dim + j][p] = -V0[p] * sum;
+      }
+}
+
+GX_CLONES static void kirchhoff(const struct gx_particles *particles, double *const *T)
+{
+  GX_FOR_DIM(particles->dim, kirchhoff_points(dim, particles, T))
+}
+
+static enum gx_status accelerate(struct gx_space *space, double t)
+{
+  struct gx_mesh *mesh = (struct gx_mesh *)space;
+  struct gx_particles *particles = space->particles;
+  if (!mesh->options.stress_rate) {
+    long tangled = space->posed->problem->material->piola(&space->posed->options.moduli, particles->dim, particles->n,
+                                                          particles->F, particles->P);
+    if (tangled >= 0)
+      return gx_status_set(space->outcome, GX_TANGLED, tangled, "det F of a particle is %g",
+                           gx_particles_jacobian(particles, (size_t)tangled));
+  }
+  kirchhoff(particles, mesh->T);
+  gx_mesh_accelerate(mesh, t);
+  return GX_OK;
+}
+
+/* rate_F = L F, with L the velocity gradient; L and rate_F may share arrays. */
+GX_CORE void stretch_points(const int dim, size_t n, double *const *L, double *const *F, double *const *rate_F)
+{
+  for (size_t p = 0; p < n; p++) {
+    double l[GX_MAX_TENSOR], f[GX_MAX_TENSOR], rate[GX_MAX_TENSOR];
+    gx_tensor_load(dim, L, p, l);
+    gx_tensor_load(dim, F, p, f);
+    for (int i = 0; i < dim; i++)
+      for (int j = 0; j < dim; j++) {
+        double sum = 0;
+        for (int k = 0; k < dim; k++) sum += l[i * dim + k] * f[k * dim + j];
+        rate[i * dim + j] = sum;
+      }
+    gx_tensor_store(dim, rate_F, p, rate);
+  }
+}
+
+static void stretch(int dimension, size_t n, double *const *L, double *const *F, double *const *rate_F)
+{
+  GX_FOR_DIM(dimension, stretch_points(dim, n, L, F, rate_F))
+}
+
+static void rate_of_stress(struct gx_space *space, double *const *rate_F, double *const *rate_P)
+{
+  const struct gx_particles *particles = space->particles;
+  space->posed->problem->material->piola_rate(&space->posed->options.moduli, particles->dim, particles->n, particles->F, rate_F,
+                                              rate_P);
+}
+
+/* v_p <- flip (v_p + dt S a) + (1 - flip) S v */
+static void kick_particles(struct gx_mesh *mesh, double kick)
+{
+  struct gx_particles *particles = mesh->space.particles;
+  double flip = mesh->options.pic ? 0 : mesh->options.flip;
+  for (int d = 0; d < particles->dim; d++) {
+    double *v = particles->v[d];
+    gx_vector_add(particles->n, kick, mesh->gathered_a[d], v);
+    if (flip < 1)
+      for (size_t p = 0; p < particles->n; p++) v[p] = flip * v[p] + (1 - flip) * mesh->gathered_v[d][p];
+  }
+}
+
+static void advance(struct gx_space *space, double kick, double strain, double drift)
+{
+  struct gx_mesh *mesh = (struct gx_mesh *)space;
+  struct gx_particles *particles = space->particles;
+  int dim = particles->dim;
+  size_t n = particles->n;
+  if (kick != 0)
+    for (int d = 0; d < dim; d++) gx_vector_add(mesh->grid.stored, kick, mesh->a[d], mesh->v[d]);
+  gx_transfer_gather_all(&mesh->weights, mesh->a, mesh->v, mesh->gathered_a, mesh->gathered_v, mesh->gradient);
+  if (kick != 0) kick_particles(mesh, kick);
+  if (strain != 0) {
+    stretch(dim, n, mesh->gradient, particles->F, mesh->gradient);
+    if (mesh->options.stress_rate) {
+      rate_of_stress(space, mesh->gradient, mesh->rate_P);
+      for (int k = 0; k < dim * dim; k++) gx_vector_add(n, strain, mesh->rate_P[k], particles->P[k]);
+    }
+    for (int k = 0; k < dim * dim; k++) gx_vector_add(n, strain, mesh->gradient[k], particles->F[k]);
+  }
+  if (drift != 0)
+    for (int d = 0; d < dim; d++)
+      gx_vector_add(n, drift, mesh->options.particle_motion ? particles->v[d] : mesh->gathered_v[d], particles->u[d]);
+}
+
+static void state(struct gx_space *space, struct gx_state *list)
+{
+  struct gx_mesh *mesh = (struct gx_mesh *)space;
+  struct gx_particles *particles = space->particles;
+  int dim = particles->dim;
+  size_t n = particles->n;
+  list->count = 0;
+  gx_mesh_append(list, dim, particles->u, n);
+  gx_mesh_append(list, dim, particles->v, n);
+  gx_mesh_append(list, dim * dim, particles->F, n);
+  if (mesh->options.stress_rate) gx_mesh_append(list, dim * dim, particles->P, n);
+  if (!mesh->options.each_step) gx_mesh_append(list, dim, mesh->v, mesh->grid.stored);
+}
+
+static void rates(struct gx_space *space, double *const *rate)
+{
+  struct gx_mesh *mesh = (struct gx_mesh *)space;
+  struct gx_particles *particles = space->particles;
+  int dim = particles->dim;
+  size_t n = particles->n;
+  double *const *rate_u = rate, *const *rate_v = rate + dim, *const *rate_F = rate + 2 * dim;
+  gx_transfer_gather_all(&mesh->weights, mesh->a, mesh->v, rate_v, rate_u, rate_F);
+  if (mesh->options.particle_motion)
+    for (int d = 0; d < dim; d++)
+      for (size_t p = 0; p < n; p++) rate_u[d][p] = particles->v[d][p];
+  stretch(dim, n, rate_F, particles->F, rate_F);
+  rate += 2 * dim + dim * dim;
+  if (mesh->options.stress_rate) {
+    rate_of_stress(space, rate_F, rate);
+    rate += dim * dim;
+  }
+  if (!mesh->options.each_step)
+    for (int d = 0; d < dim; d++)
+      for (size_t i = 0; i < mesh->grid.stored; i++) rate[d][i] = mesh->a[d][i];
+}
+
+const struct gx_space_kind gx_standard = {
+    .name = "standard",
+    .help = "MPM on a fixed grid: particles move through the cells, Cauchy stress, gradients at current positions",
+    .source = "steffen2010 S(15)-S(22)",
+    .fixed_grid = true,
+    .create = create,
+    .free = gx_mesh_free,
+    .weights = weights,
+    .project = project,
+    .accelerate = accelerate,
+    .advance = advance,
+    .state = state,
+    .rates = rates,
+    .kinetic = gx_mesh_kinetic,
+    .particle_acceleration = gx_mesh_particle_acceleration,
+};

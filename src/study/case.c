@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Planning and running one case. A method that fails ends the case with a status; nothing here aborts. */
+#include <gridcross/study.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "simulation.h"
+#include "stability.h"
+
+struct run {
+  struct gx_simulation simulation;
+  struct gx_stepper *stepper;
+  struct gx_measure *measure;
+  struct gx_result *result;
+  enum gx_measure_level level;
+  double history_every;   /* steps; 0: none */
+  const char *accumulate; /* time.accumulate */
+  double time, lost;      /* s; lost: what compensated summation carries */
+  double kinetic_limit;   /* J */
+  double measuring;       /* s of wall time */
+};
+
+static double seconds_now(void)
+{
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static enum gx_measure_level level_of(const struct gx_case *one)
+{
+  const char *level = one->value[GX_OUTPUT_MEASURES].text;
+  return !strcmp(level, "final") ? GX_MEASURE_FINAL : !strcmp(level, "max") ? GX_MEASURE_MAX : GX_MEASURE_ALL;
+}
+
+static enum gx_status prepare(struct run *run, const struct gx_case *one)
+{
+  struct gx_simulation *simulation = &run->simulation;
+  struct gx_outcome *outcome = &run->result->outcome;
+  GX_TRY(gx_simulation_plan(simulation, one, outcome));
+  run->result->dt = simulation->dt;
+  GX_TRY(gx_simulation_build(simulation, outcome));
+  run->level = level_of(one);
+  run->history_every = (double)one->value[GX_OUTPUT_HISTORIES].integer;
+  run->accumulate = one->value[GX_TIME_ACCUMULATE].text;
+  const int *cells = simulation->kind->fixed_grid ? simulation->space_options.cells : NULL;
+  run->measure = gx_measure_create(simulation->space, simulation->clock, cells, run->level);
+  if (!run->measure) return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the measures");
+  struct gx_work_observer observer = gx_measure_work(run->measure);
+  run->stepper = gx_stepper_create(simulation->clock, simulation->space, &observer);
+  if (!run->stepper) return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the clock");
+  if (run->history_every > 0) {
+    double samples = floor(simulation->steps / run->history_every) + 2;
+    run->result->history.sample = samples < 1e9 ? malloc((size_t)samples * sizeof(struct gx_sample)) : NULL;
+    if (!run->result->history.sample)
+      return gx_status_set(outcome, GX_FAILED, -1, "out of memory for %.3g history samples", samples);
+  }
+  double m = 0, c = simulation->posed->speed;
+  for (size_t p = 0; p < simulation->particles->n; p++) m += simulation->particles->m[p];
+  /* 5 times the exact solution's speed, and room for round-off when it does not move */
+  run->kinetic_limit = 25 * gx_simulation_kinetic_bound(simulation) + 0.5 * m * 1e-12 * c * c;
+  return GX_OK;
+}
+
+static enum gx_status take_sample(struct run *run, double step)
+{
+  const struct gx_simulation *simulation = &run->simulation;
+  bool last = step == simulation->steps;
+  bool kept = run->history_every > 0 && (last || fmod(step, run->history_every) == 0);
+  if (run->level == GX_MEASURE_FINAL && !last && !kept) return GX_OK;
+  GX_TRY(gx_stepper_accelerate(run->stepper, run->time)); /* the next step reuses it: not a cost of measuring */
+  double before = seconds_now();
+  GX_TRY(gx_measure_take(run->measure, run->stepper, run->time, simulation->dt));
+  run->measuring += seconds_now() - before;
+  if (kept) run->result->history.sample[run->result->history.samples++] = gx_measure_result(run->measure)->last;
+  return GX_OK;
+}
+
+static void advance_time(struct run *run, double step)
+{
+  double dt = run->simulation.dt;
+  if (!strcmp(run->accumulate, "sum")) {
+    run->time += dt;
+  } else if (!strcmp(run->accumulate, "compensated")) {
+    double correction = dt - run->lost, sum = run->time + correction;
+    run->lost = (sum - run->time) - correction;
+    run->time = sum;
+  } else {
+    run->time = step * dt;
+  }
+}
+
+static enum gx_status march(struct run *run)
+{
+  const struct gx_simulation *simulation = &run->simulation;
+  struct gx_result *result = run->result;
+  GX_TRY(take_sample(run, 0));
+  for (double step = 1; step <= simulation->steps; step++) {
+    GX_TRY(gx_stepper_step(run->stepper, run->time, simulation->dt));
+    advance_time(run, step);
+    result->steps = step;
+    result->time = run->time;
+    double kinetic = simulation->kind->kinetic(simulation->space);
+    if (!(kinetic <= run->kinetic_limit))
+      return gx_status_set(&result->outcome, GX_UNSTABLE, -1, "kinetic energy %.4g J, over 25 times the exact solution's",
+                           kinetic);
+    GX_TRY(take_sample(run, step));
+  }
+  return GX_OK;
+}
+
+struct gx_result gx_case_run(const struct gx_case *one)
+{
+  struct gx_result result = {.outcome = {.status = GX_OK, .particle = -1}, .dt = NAN, .ns_per_particle_step = NAN};
+  struct run run = {.result = &result};
+  if (prepare(&run, one) == GX_OK) {
+    double before = seconds_now();
+    if (march(&run) == GX_OK) result.measured = *gx_measure_result(run.measure);
+    result.seconds = seconds_now() - before - run.measuring;
+  }
+  if (result.steps > 0) result.ns_per_particle_step = 1e9 * result.seconds / (result.steps * (double)run.simulation.particles->n);
+  gx_stepper_free(run.stepper);
+  gx_measure_free(run.measure);
+  gx_simulation_free(&run.simulation);
+  return result;
+}
+
+void gx_case_free(struct gx_result *result)
+{
+  free(result->history.sample);
+  result->history = (struct gx_history){0};
+}
+
+struct gx_plan gx_case_plan(const struct gx_case *one)
+{
+  struct gx_plan plan = {.outcome = {.status = GX_OK, .particle = -1}, .stable_dt = NAN};
+  struct gx_simulation simulation;
+  if (gx_simulation_plan(&simulation, one, &plan.outcome) == GX_OK && gx_simulation_build(&simulation, &plan.outcome) == GX_OK) {
+    plan.particles = (double)simulation.particles->n;
+    plan.stable_dt = simulation.clock->stability / gx_stability_frequency(simulation.space);
+  }
+  plan.dt = simulation.dt;
+  plan.end = simulation.end;
+  plan.steps = simulation.steps;
+  gx_simulation_free(&simulation);
+  return plan;
+}

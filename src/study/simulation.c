@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* From the resolved parameters of a case to something that runs. */
+#include "simulation.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool is(const struct gx_case *one, enum gx_parameter_id id, const char *text)
+{
+  return one->value[id].type == GX_TEXT && !strcmp(one->value[id].text, text);
+}
+
+static long integer(const struct gx_case *one, enum gx_parameter_id id, long otherwise)
+{
+  return one->value[id].type == GX_INTEGER ? one->value[id].integer : otherwise;
+}
+
+static double real(const struct gx_case *one, enum gx_parameter_id id, double otherwise)
+{
+  return one->value[id].type == GX_REAL ? one->value[id].real : otherwise;
+}
+
+static void read_problem(struct gx_simulation *simulation, const struct gx_case *one)
+{
+  struct gx_problem_options *options = &simulation->problem_options;
+  simulation->problem = gx_problem_find(one->value[GX_PROBLEM_NAME].text);
+  options->dim = (int)integer(one, GX_PROBLEM_DIMENSION, 1);
+  options->amplitude = real(one, GX_PROBLEM_AMPLITUDE, 0);
+  options->mode = (double)integer(one, GX_PROBLEM_MODE, 1);
+  options->moduli =
+      gx_material_moduli(real(one, GX_PROBLEM_MODULUS, 0), real(one, GX_PROBLEM_POISSON, 0), real(one, GX_PROBLEM_DENSITY, 1));
+  const struct gx_value *active = &one->value[GX_PROBLEM_ACTIVE], *phases = &one->value[GX_PROBLEM_PHASES];
+  const char *phase = phases->type == GX_TEXT ? phases->text : "";
+  for (int d = 0; d < options->dim; d++) {
+    options->active[d] = active->type != GX_TEXT || strchr(active->text, "xyz"[d]);
+    char *rest;
+    options->phase[d] = M_PI * strtod(phase, &rest); /* 0 when the text has ended */
+    phase = rest;
+  }
+}
+
+static void read_method(struct gx_simulation *simulation, const struct gx_case *one)
+{
+  struct gx_space_options *options = &simulation->space_options;
+  simulation->kind = gx_space_find(one->value[GX_METHOD_SPACE].text);
+  simulation->clock = gx_clock_find(one->value[GX_METHOD_CLOCK].text);
+  simulation->layout = is(one, GX_MESH_LAYOUT, "gauss") ? GX_LAYOUT_GAUSS : GX_LAYOUT_UNIFORM;
+  simulation->per_cell = (int)integer(one, GX_MESH_PARTICLES_PER_CELL, 1);
+  for (int d = 0; d < GX_MAX_DIM; d++) options->cells[d] = (int)integer(one, GX_MESH_CELLS, 1);
+  options->periodic = is(one, GX_PROBLEM_BOUNDARY, "periodic");
+  options->basis = gx_basis_find(one->value[GX_METHOD_BASIS].text);
+  options->degree = (int)integer(one, GX_METHOD_DEGREE, 1);
+  options->consistent = is(one, GX_METHOD_MASS, "consistent");
+  options->pic = is(one, GX_METHOD_TRANSFER, "pic");
+  options->flip = real(one, GX_METHOD_FLIP, 1);
+  options->particle_motion = is(one, GX_METHOD_POSITION, "particle");
+  options->each_step = is(one, GX_METHOD_PROJECTION, "each-step");
+  options->stress_rate = is(one, GX_METHOD_STRESS, "rate");
+}
+
+static enum gx_status refuse(const struct gx_simulation *simulation, struct gx_outcome *outcome)
+{
+  const struct gx_problem_options *problem = &simulation->problem_options;
+  const struct gx_space_options *options = &simulation->space_options;
+  double slope = 2 * M_PI * problem->mode * fabs(problem->amplitude);
+  if (slope >= 1)
+    return gx_status_set(outcome, GX_REFUSED, -1,
+                         "the exact solution itself tangles: its least F is %.4g; amplitude must stay below %.6g", 1 - slope,
+                         1 / (2 * M_PI * problem->mode));
+  if (options->basis->deforms && !simulation->kind->fixed_grid)
+    return gx_status_set(outcome, GX_REFUSED, -1,
+                         "%s has no meaning in the reference configuration, where domains keep their width: use ugimp",
+                         options->basis->name);
+  if (simulation->clock->tableau && (options->pic || options->flip < 1))
+    return gx_status_set(outcome, GX_REFUSED, -1,
+                         "%s advances rates, and PIC is not one: use transfer flip with flip 1, or a clock of kicks",
+                         simulation->clock->name);
+  return GX_OK;
+}
+
+static enum gx_status settle_steps(struct gx_simulation *simulation, const struct gx_case *one, struct gx_outcome *outcome)
+{
+  double c = simulation->problem->material->wave_speed(&simulation->problem_options.moduli);
+  double h = 1.0 / simulation->space_options.cells[0];
+  double period = simulation->problem->cycles / (c * simulation->problem_options.mode);
+  double dt = real(one, GX_TIME_DT, real(one, GX_TIME_CFL, 0) * h / c);
+  double end = real(one, GX_TIME_END, real(one, GX_TIME_PERIODS, 0) * period);
+  if (!(dt > 0 && isfinite(dt) && isfinite(end)))
+    return gx_status_set(outcome, GX_REFUSED, -1, "time step %g s and end %g s are not both positive numbers", dt, end);
+  simulation->steps = fmax(0, ceil(end / dt - 1e-9));
+  if (simulation->steps > 1e15) return gx_status_set(outcome, GX_REFUSED, -1, "%.3g steps would never end", simulation->steps);
+  bool exact = !is(one, GX_TIME_LANDING, "past") && simulation->steps > 0;
+  simulation->dt = exact ? end / simulation->steps : dt;
+  simulation->end = end;
+  return GX_OK;
+}
+
+enum gx_status gx_simulation_plan(struct gx_simulation *simulation, const struct gx_case *one, struct gx_outcome *outcome)
+{
+  *simulation = (struct gx_simulation){0};
+  read_problem(simulation, one);
+  read_method(simulation, one);
+  GX_TRY(settle_steps(simulation, one, outcome));
+  return refuse(simulation, outcome);
+}
+
+enum gx_status gx_simulation_build(struct gx_simulation *simulation, struct gx_outcome *outcome)
+{
+  const struct gx_problem_options *options = &simulation->problem_options;
+  struct gx_particles *particles = gx_particles_create(options->dim, simulation->space_options.cells, simulation->per_cell,
+                                                       simulation->layout, options->moduli.density);
+  simulation->particles = particles;
+  if (!particles) return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the particles");
+  simulation->posed = gx_problem_pose(simulation->problem, options, particles->n, particles->X);
+  if (!simulation->posed) return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the problem");
+  simulation->problem->exact(simulation->posed, 0, particles->u, NULL, particles->F);
+  double start = simulation->clock->staggered ? -0.5 * simulation->dt : 0;
+  simulation->problem->exact(simulation->posed, start, NULL, particles->v, NULL);
+  return simulation->kind->create(&simulation->space, &simulation->space_options, particles, simulation->posed, outcome);
+}
+
+void gx_simulation_free(struct gx_simulation *simulation)
+{
+  if (simulation->space) simulation->kind->free(simulation->space);
+  gx_problem_free(simulation->posed);
+  gx_particles_free(simulation->particles);
+}
+
+double gx_simulation_kinetic_bound(const struct gx_simulation *simulation)
+{
+  enum { SAMPLES = 8 }; /* a standing wave peaks at quarters of its period */
+  const struct gx_particles *particles = simulation->particles;
+  double period = simulation->problem->cycles / (simulation->posed->speed * simulation->problem_options.mode);
+  double *v[GX_MAX_DIM], largest = 0;
+  double *block = malloc(particles->n * (size_t)particles->dim * sizeof(double));
+  if (!block) return INFINITY;
+  for (int d = 0; d < particles->dim; d++) v[d] = block + (size_t)d * particles->n;
+  for (int i = 0; i < SAMPLES; i++) {
+    double kinetic = 0;
+    simulation->problem->exact(simulation->posed, period * i / SAMPLES, NULL, v, NULL);
+    for (int d = 0; d < particles->dim; d++)
+      for (size_t p = 0; p < particles->n; p++) kinetic += 0.5 * particles->m[p] * v[d][p] * v[d][p];
+    largest = fmax(largest, kinetic);
+  }
+  free(block);
+  return largest;
+}

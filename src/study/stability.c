@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Power iteration on the square of the Jacobian of the rates. Its eigenvalues are -omega^2 where the method vibrates, so the
+ * growth of a vector under two applications is omega^2. Jacobian times vector is a difference of rates. */
+#include "stability.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ITERATIONS = 60 };
+
+struct iteration {
+  struct gx_space *space;
+  struct gx_state state;
+  size_t total;
+  double *start, *rest, *vector, *rate;
+};
+
+static void load(struct iteration *it, const double *base, const double *direction, double scale)
+{
+  for (int i = 0; i < it->state.count; base += it->state.length[i], direction += it->state.length[i], i++)
+    for (size_t k = 0; k < it->state.length[i]; k++) it->state.array[i][k] = base[k] + scale * direction[k];
+}
+
+static int evaluate(struct iteration *it, double *rate)
+{
+  double *part[GX_MAX_STATE];
+  for (int i = 0; i < it->state.count; rate += it->state.length[i], i++) part[i] = rate;
+  const struct gx_space_kind *kind = it->space->kind;
+  if (kind->weights(it->space) || kind->project(it->space) || kind->accelerate(it->space, 0)) return -1;
+  kind->rates(it->space, part);
+  return 0;
+}
+
+static double norm(const double *vector, size_t n)
+{
+  double sum = 0;
+  for (size_t i = 0; i < n; i++) sum += vector[i] * vector[i];
+  return sqrt(sum);
+}
+
+/* vector <- J vector */
+static int apply(struct iteration *it)
+{
+  double scale = 1e-7 / norm(it->vector, it->total);
+  load(it, it->start, it->vector, scale);
+  if (evaluate(it, it->rate)) return -1;
+  for (size_t i = 0; i < it->total; i++) it->vector[i] = (it->rate[i] - it->rest[i]) / scale;
+  return 0;
+}
+
+static double iterate(struct iteration *it)
+{
+  uint64_t seed = 1;
+  load(it, it->start, it->start, 0);
+  if (evaluate(it, it->rest)) return NAN;
+  for (size_t i = 0; i < it->total; i++) {
+    seed = seed * 6364136223846793005u + 1442695040888963407u;
+    it->vector[i] = (double)(seed >> 11) * 0x1p-53 - 0.5;
+  }
+  double omega = NAN;
+  for (int k = 0; k < ITERATIONS; k++) {
+    double before = norm(it->vector, it->total);
+    if (apply(it) || apply(it)) return NAN;
+    double after = norm(it->vector, it->total);
+    if (!(after > 0 && isfinite(after))) return NAN;
+    omega = sqrt(after / before);
+    for (size_t i = 0; i < it->total; i++) it->vector[i] /= after;
+  }
+  return omega;
+}
+
+double gx_stability_frequency(struct gx_space *space)
+{
+  struct iteration it = {.space = space};
+  space->kind->state(space, &it.state);
+  for (int i = 0; i < it.state.count; i++) it.total += it.state.length[i];
+  double *block = calloc(4 * it.total, sizeof(double));
+  if (!block) return NAN;
+  it.start = block;
+  it.rest = block + it.total;
+  it.vector = block + 2 * it.total;
+  it.rate = block + 3 * it.total;
+  double *at = it.start;
+  for (int i = 0; i < it.state.count; at += it.state.length[i], i++)
+    memcpy(at, it.state.array[i], it.state.length[i] * sizeof(double));
+  double omega = iterate(&it);
+  load(&it, it.start, it.start, 0);
+  free(block);
+  return omega;
+}
