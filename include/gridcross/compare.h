@@ -11,7 +11,7 @@ struct gx_comparison {
   size_t studies;
   const struct gx_table *const *table; /* [studies], borrowed */
   const char *const *name;             /* [studies] values of the axis `study`, which joins where a case is in two studies */
-  const char *rows; /* path; NULL: mesh.cells where it varies, else time.dt, time.cfl, method.degree, the first */
+  const char *rows; /* path; NULL: of mesh.cells, time.dt, time.cfl, method.degree, any: the first that varies */
   size_t columns;
   const char *const *column; /* [columns] paths; none: every axis that is left */
   size_t values;

@@ -11,7 +11,7 @@
 #include <gridcross/problem.h>
 #include <gridcross/space.h>
 
-#include "../study/nearest.h"
+#include "../core/nearest.h"
 #include "../view/sheet.h"
 
 enum { INDENT = 4, PAGE = 100 };
@@ -68,7 +68,7 @@ static void list_problems(void)
 {
   for (const struct gx_problem *const *p = gx_problem_family; *p; p++) {
     char facts[128];
-    snprintf(facts, sizeof facts, "(material %s, 1%s dimension%s)", (*(*p)->material)->name,
+    snprintf(facts, sizeof facts, "(material %s, 1%s dimension%s)", (*p)->material->name,
              (*p)->max_dim == 3   ? " to 3"
              : (*p)->max_dim == 2 ? " to 2"
                                   : "",
@@ -108,7 +108,7 @@ static void list_parameters(void)
     print_text(p->help);
     if (p->why) {
       char why[512];
-      snprintf(why, sizeof why, "%s: %s", p->standard || p->resolve ? "default" : "no default", p->why);
+      snprintf(why, sizeof why, "Why: %s", p->why);
       print_text(why);
     }
   }
@@ -140,8 +140,8 @@ static int run(const struct gx_options *options)
     gx_nearest_try(&near, topic[t].name);
   }
   fprintf(stderr, "gridcross list: nothing is called '%s'", options->operand[0]);
-  if (near.best) fprintf(stderr, ": did you mean %s?\n", near.best);
-  if (!near.best) fputs("; see gridcross list --help\n", stderr);
+  if (*near.best) fprintf(stderr, ": did you mean %s?\n", near.best);
+  if (!*near.best) fputs("; see gridcross list --help\n", stderr);
   return GX_EXIT_USAGE;
 }
 

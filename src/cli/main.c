@@ -5,7 +5,7 @@
 
 #include <gridcross/build.h>
 
-#include "../study/nearest.h"
+#include "../core/nearest.h"
 #include "command.h"
 
 static const struct gx_command *const commands[] = {&gx_command_run,  &gx_command_check,   &gx_command_init,
@@ -40,10 +40,10 @@ static const struct gx_command *find_command(const char *name)
   }
   gx_nearest_try(&near, "help");
   gx_nearest_try(&near, "version");
-  bool option = near.best && (!strcmp(near.best, "help") || !strcmp(near.best, "version"));
+  bool option = *near.best && (!strcmp(near.best, "help") || !strcmp(near.best, "version"));
   fprintf(stderr, "gridcross: no command '%s'", name);
-  if (near.best) fprintf(stderr, ": did you mean %s%s?", option ? "--" : "", near.best);
-  fputs(near.best ? "\n" : "; see gridcross --help\n", stderr);
+  if (*near.best) fprintf(stderr, ": did you mean %s%s?", option ? "--" : "", near.best);
+  fputs(*near.best ? "\n" : "; see gridcross --help\n", stderr);
   return NULL;
 }
 

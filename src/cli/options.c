@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../study/nearest.h"
+#include "../core/nearest.h"
 
 static const struct gx_option help_option = {'h', "help", NULL, "print this and end"};
 
@@ -36,8 +36,8 @@ static int unknown(const struct gx_command *command, const char *word, FILE *err
   struct gx_nearest near = {.word = word + strspn(word, "-")};
   for (const struct gx_option *o = command->option; o->name; o++) gx_nearest_try(&near, o->name);
   fprintf(errors, "gridcross %s: no option %s", command->name, word);
-  if (near.best) fprintf(errors, ": did you mean --%s?", near.best);
-  fprintf(errors, "%s see gridcross %s --help\n", near.best ? "" : ";", command->name);
+  if (*near.best) fprintf(errors, ": did you mean --%s?", near.best);
+  fprintf(errors, "%s see gridcross %s --help\n", *near.best ? "" : ";", command->name);
   return GX_EXIT_USAGE;
 }
 

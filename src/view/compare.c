@@ -59,7 +59,7 @@ static const char *order_text(const struct layout *at, size_t row, size_t column
   if (isnan(order))
     text[0] = '\0';
   else
-    snprintf(text, ORDER, "%.2f", fabs(order) < 99 ? order : copysign(99, order));
+    snprintf(text, ORDER, "%.2f", fabs(order) < 0.005 ? 0 : fmin(fmax(order, -99), 99));
   return text;
 }
 
@@ -89,27 +89,36 @@ static struct layout measure(const struct gx_pivot *pivot, size_t v)
   return at;
 }
 
-/* Labels of one axis; a label stands once over neighbours that share it and all labels above it. */
-static void print_labels(const struct layout *at, size_t axis, size_t from, size_t to, FILE *out)
+/* Labels of one axis after the lead; a label stands once over neighbours that share it and all labels above it. */
+static void print_labels(const struct layout *at, const char *lead, size_t axis, size_t from, size_t to, FILE *out)
 {
-  int skipped = at->row_width;
+  bool innermost = axis + 1 == at->pivot->axes, right = innermost && !at->ordered;
+  int skipped = at->row_width - gx_sheet_width(lead);
+  fputs(lead, out);
   for (size_t c = from; c < to; c++) {
     char label[LABEL], before[LABEL];
-    bool same = c > from && axis + 1 < at->pivot->axes;
+    bool same = c > from && !innermost;
     for (size_t a = 0; a <= axis && same; a++)
       same = !strcmp(axis_label(at->pivot, a, c, label), axis_label(at->pivot, a, c - 1, before));
     axis_label(at->pivot, axis, c, label);
     skipped += GAP;
-    if (!same && *label) {
-      bool right = !at->ordered && axis + 1 == at->pivot->axes;
-      fprintf(out, "%*s", skipped, "");
-      gx_sheet_pad(label, right ? at->group_width : 0, right, out);
-      skipped = right ? 0 : at->group_width - gx_sheet_width(label);
-    } else {
+    if (same || !*label) {
       skipped += at->group_width;
+      continue;
     }
+    fprintf(out, "%*s", skipped, "");
+    gx_sheet_pad(label, right ? at->group_width : 0, right, out);
+    skipped = right ? 0 : at->group_width - gx_sheet_width(label);
   }
   putc('\n', out);
+}
+
+static bool any_label(const struct gx_pivot *pivot, size_t axis, size_t from, size_t to)
+{
+  char label[LABEL];
+  for (size_t c = from; c < to; c++)
+    if (*axis_label(pivot, axis, c, label)) return true;
+  return false;
 }
 
 /* Text at the right of a field whose left is filled with the blanks still owed. Blanks at the end of a line are never printed. */
@@ -125,12 +134,19 @@ static void print_block(const struct layout *at, size_t from, size_t to, FILE *o
 {
   const struct gx_pivot *pivot = at->pivot;
   char buffer[GX_NUMBER_LENGTH], order[ORDER];
-  for (size_t a = 0; a < pivot->axes; a++) print_labels(at, a, from, to, out);
-  bool right = pivot->table->column[pivot->row_axis].type != GX_TEXT;
-  gx_sheet_pad(pivot->table->column[pivot->row_axis].name, at->ordered ? at->row_width : 0, right, out);
+  const char *name = pivot->table->column[pivot->row_axis].name;
+  bool right = pivot->table->column[pivot->row_axis].type != GX_TEXT, named = false;
   int owed = 0;
+  for (size_t a = 0; a < pivot->axes; a++) {
+    bool last = !at->ordered && a + 1 == pivot->axes;
+    if (!last && !any_label(pivot, a, from, to)) continue;
+    print_labels(at, last ? name : "", a, from, to, out);
+    named = last;
+  }
+  if (!named) fputs(name, out);
+  if (at->ordered) owed = at->row_width - gx_sheet_width(name);
   for (size_t c = from; c < to && at->ordered; c++) print_right("order", GAP + at->group_width, &owed, out);
-  putc('\n', out);
+  if (!named) putc('\n', out);
   for (size_t r = 0; r < pivot->rows; r++) {
     gx_sheet_pad(row_label(pivot, r, buffer), at->row_width, right, out);
     owed = 0;
@@ -142,6 +158,23 @@ static void print_block(const struct layout *at, size_t from, size_t to, FILE *o
   }
 }
 
+/* End of the block that begins at `from` and holds at most `fit` columns: where the outermost axis changes that changes there. */
+static size_t block_end(const struct gx_pivot *pivot, size_t from, size_t fit)
+{
+  size_t end = from + fit, best = pivot->axes;
+  if (end >= pivot->columns) return pivot->columns;
+  size_t at = end;
+  for (size_t c = from + 1; c <= end; c++) {
+    char label[LABEL], before[LABEL];
+    size_t axis = 0;
+    while (axis < pivot->axes && !strcmp(axis_label(pivot, axis, c, label), axis_label(pivot, axis, c - 1, before))) axis++;
+    if (axis > best) continue;
+    best = axis;
+    at = c;
+  }
+  return at;
+}
+
 int gx_compare_print(const struct gx_comparison *comparison, FILE *out, FILE *errors)
 {
   struct gx_pivot *pivot = gx_pivot_create(comparison, errors);
@@ -150,13 +183,12 @@ int gx_compare_print(const struct gx_comparison *comparison, FILE *out, FILE *er
     const struct gx_column *column = &pivot->table->column[pivot->value[v]];
     struct layout at = measure(pivot, v);
     int fit = (PAGE - at.row_width) / (GAP + at.group_width);
-    size_t blocks = fit > 0 ? (pivot->columns + (size_t)fit - 1) / (size_t)fit : pivot->columns;
-    size_t each = blocks ? (pivot->columns + blocks - 1) / blocks : 0;
     fprintf(out, v ? "\n%s" : "%s", column->name);
     fprintf(out, *column->unit ? " [%s]\n" : "\n", column->unit);
-    for (size_t from = 0; from < pivot->columns; from += each) {
+    for (size_t from = 0, to; from < pivot->columns; from = to) {
+      to = block_end(pivot, from, fit > 0 ? (size_t)fit : 1);
       putc('\n', out);
-      print_block(&at, from, from + each < pivot->columns ? from + each : pivot->columns, out);
+      print_block(&at, from, to, out);
     }
   }
   gx_pivot_free(pivot);

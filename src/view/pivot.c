@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../study/nearest.h"
+#include "../core/nearest.h"
 #include "axes.h"
 #include "sheet.h"
 
@@ -16,6 +16,7 @@ static const struct {
   bool upwards;
 } refining[] = {{"mesh.cells", true}, {"time.dt", false}, {"time.cfl", false}};
 
+/* Where every case has a value of them. */
 static const char *const preferred_rows[] = {"mesh.cells", "time.dt", "time.cfl", "method.degree"};
 
 static int no_memory(FILE *errors)
@@ -83,15 +84,17 @@ static bool varies(const struct gx_table *table, size_t column)
 static void name_candidates(const struct gx_table *table, const char *name, bool parameter, FILE *errors)
 {
   struct gx_nearest near = {.word = name};
+  const char *meant = NULL;
   for (size_t c = 0; c < table->columns; c++) {
     const char *column = table->column[c].name;
     size_t n = strlen(name), m = strlen(column);
     if (parameter && !gx_axes_parameter(table, c)) continue;
     gx_nearest_try(&near, column);
     bool tail = n && m > n && column[m - n - 1] == '.' && !strcmp(column + m - n, name);
-    if (tail) near = (struct gx_nearest){.word = name, .best = column};
+    if (tail) meant = column;
   }
-  if (near.best) fprintf(errors, ": did you mean %s?", near.best);
+  if (!meant && *near.best) meant = near.best;
+  if (meant) fprintf(errors, ": did you mean %s?", meant);
   const char *gap = "; what varies here: ";
   for (size_t c = 0; c < table->columns && parameter; c++)
     if (gx_axes_parameter(table, c) && varies(table, c)) {
@@ -111,12 +114,20 @@ static long find(const struct gx_table *table, const char *name, bool parameter,
   return -1;
 }
 
+static bool has_null(const struct gx_table *table, size_t column)
+{
+  for (size_t r = 0; r < table->rows; r++)
+    if (gx_table_get(table, r, column).type == GX_NULL) return true;
+  return false;
+}
+
 static size_t default_rows(const struct gx_pivot *pivot)
 {
   const struct gx_table *table = pivot->table;
   for (size_t i = 0; i < sizeof preferred_rows / sizeof *preferred_rows; i++) {
     long c = gx_table_find(table, preferred_rows[i]);
-    if (c >= 0 && varies(table, (size_t)c) && !among((size_t)c, pivot->axes, pivot->axis)) return (size_t)c;
+    if (c < 0 || !varies(table, (size_t)c) || among((size_t)c, pivot->axes, pivot->axis)) continue;
+    if (!has_null(table, (size_t)c)) return (size_t)c;
   }
   for (size_t c = 0; c < table->columns; c++)
     if (gx_axes_parameter(table, c) && varies(table, c) && !among(c, pivot->axes, pivot->axis)) return c;
