@@ -131,9 +131,8 @@ static size_t default_rows(const struct gx_pivot *pivot)
   }
   for (size_t c = 0; c < table->columns; c++)
     if (gx_axes_parameter(table, c) && varies(table, c) && !among(c, pivot->axes, pivot->axis)) return c;
-  for (size_t c = 0; c < table->columns; c++)
-    if (gx_axes_parameter(table, c) && !among(c, pivot->axes, pivot->axis)) return c;
-  return table->columns - 1;
+  long c = gx_table_find(table, preferred_rows[0]);
+  return c >= 0 && !among((size_t)c, pivot->axes, pivot->axis) ? (size_t)c : table->columns - 1;
 }
 
 /* Every axis that is left, or an error where the user's columns leave one. axis has room for every column. */
