@@ -282,7 +282,7 @@ void gx_expansion_run(struct gx_settings *settings)
   free(expansion.slot);
   for (int id = 0; id < GX_PARAMETERS; id++)
     if (expansion.held[id] && !expansion.applied[id])
-      gx_errors_add(errors, expansion.held[id]->place, "%s applies to no case; remove it (it is the %s)", gx_parameters[id].path,
+      gx_errors_add(errors, expansion.held[id]->place, "%s applies to no case; remove it (%s)", gx_parameters[id].path,
                     gx_parameters[id].help);
   find_axes(settings, settings->study);
 }

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "nearest.h"
+#include "../core/nearest.h"
 
 /* Keys beside sections and parameters, in the file itself only. */
 static const char *const file_keys[] = {"title", "zip", "cases", NULL};

@@ -2,12 +2,12 @@
 /* Settings: reading the value of one parameter, a scalar, a list or a range. */
 #include "setting.h"
 
-#include <limits.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "nearest.h"
+#include "../core/nearest.h"
 #include "number.h"
 
 enum { MOST_IN_RANGE = 1000000 };

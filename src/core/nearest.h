@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The candidate that a misspelt word most likely means. */
-#ifndef GRIDCROSS_STUDY_NEAREST_H
-#define GRIDCROSS_STUDY_NEAREST_H
+#ifndef GRIDCROSS_CORE_NEAREST_H
+#define GRIDCROSS_CORE_NEAREST_H
 
 enum { GX_NEAREST_LENGTH = 49 };
 
