@@ -14,7 +14,7 @@ static void layout(struct gx_axis *axis)
   axis->edge = 1;
 }
 
-/* Degree q - 1 to degree q at place r of a cell of uniform knots: B_j^q = ((r + q - j) B_{j-1}^{q-1} + (j + 1 - r) B_j^{q-1})/q. */
+/* Degree q - 1 to q at place r of a cell of uniform knots: B_j^q = ((r + q - j) B_{j-1}^{q-1} + (j + 1 - r) B_j^{q-1}) / q. */
 GX_CORE void raise_degree(const int q, double r, double *S)
 {
   const double share = 1.0 / q;
