@@ -34,7 +34,7 @@ void gx_nearest_try(struct gx_nearest *nearest, const char *candidate)
   size_t length_a = strlen(nearest->word), length_b = strlen(candidate);
   if (length_a > LONGEST || length_b > LONGEST) return;
   int distance = edits(nearest->word, (int)length_a, candidate, (int)length_b);
-  if (distance > ((int)length_b + 2) / 3 || distance >= (int)length_b) return;
+  if (distance > (least((int)length_a, (int)length_b) + 1) / 3) return;
   if (*nearest->best && distance >= nearest->distance) return;
   memcpy(nearest->best, candidate, length_b + 1);
   nearest->distance = distance;

@@ -11,12 +11,12 @@ enum { MOST_CASES = 1000000 };
 /* Parameters that advance together: one list, or a zip. */
 struct wheel {
   size_t count, at;
-  const struct gx_setting *setting; /* one of them */
+  struct gx_setting *setting; /* one of them */
 };
 
 /* One entry of `cases` over the base. */
 struct combination {
-  const struct gx_setting *held[GX_PARAMETERS]; /* NULL: default */
+  struct gx_setting *held[GX_PARAMETERS]; /* NULL: default */
   int wheel_of[GX_PARAMETERS];                  /* -1: constant */
   struct wheel wheel[GX_PARAMETERS];            /* slowest first */
   int wheels;
@@ -26,7 +26,7 @@ struct expansion {
   struct gx_settings *settings;
   struct gx_study *study;
   struct gx_value standard[GX_PARAMETERS];
-  const struct gx_setting *held[GX_PARAMETERS]; /* first setting that a case holds */
+  struct gx_setting *held[GX_PARAMETERS]; /* first setting that a case holds */
   bool applied[GX_PARAMETERS];                  /* in a case that holds a setting */
   struct {
     double real;
@@ -38,38 +38,60 @@ struct expansion {
   size_t slots;
 };
 
+static bool is_later(struct gx_place a, struct gx_place b)
+{
+  if (a.set != b.set) return a.set > b.set;
+  return a.line != b.line ? a.line > b.line : a.column > b.column;
+}
+
+/* The later of the two changed what the other expects. */
+static void report_zip(struct gx_errors *errors, struct gx_setting *a, struct gx_setting *b)
+{
+  struct gx_setting *late = is_later(a->place, b->place) ? a : b, *early = late == a ? b : a;
+  if (a->bad || b->bad) return;
+  gx_errors_add(errors, late->place, "zip: %s has %zu values here, but %s has %zu; give equally many", gx_parameters[late->id].path,
+                late->count, gx_parameters[early->id].path, early->count);
+  late->bad = true;
+}
+
+/* Lists become wheels, in the order in which the file names them; those of a zip share one. */
+static void place_wheels(struct gx_settings *settings, struct combination *combination)
+{
+  int wheel_of_zip[GX_PARAMETERS + 1] = {0}; /* number of the wheel + 1 */
+  for (size_t i = 0; i < settings->ordered; i++) {
+    enum gx_parameter_id id = settings->order[i];
+    struct gx_setting *setting = combination->held[id];
+    if (!setting || !setting->listed) continue;
+    int with = settings->zip[id] ? wheel_of_zip[settings->zip[id]] - 1 : -1;
+    struct wheel *wheel = with < 0 ? NULL : &combination->wheel[with];
+    if (wheel && wheel->count != setting->count) {
+      report_zip(settings->errors, wheel->setting, setting);
+      wheel = NULL;
+    }
+    if (!wheel) {
+      with = combination->wheels++;
+      combination->wheel[with] = (struct wheel){.count = setting->count, .setting = setting};
+      wheel_of_zip[settings->zip[id]] = with + 1;
+    }
+    combination->wheel_of[id] = with;
+  }
+}
+
 static void combine(struct gx_settings *settings, const struct gx_layer *layer, struct combination *combination)
 {
   *combination = (struct combination){.wheels = 0};
-  for (const struct gx_setting *setting = settings->base.first; setting; setting = setting->next)
+  for (struct gx_setting *setting = settings->base.first; setting; setting = setting->next)
     combination->held[setting->id] = setting;
-  for (const struct gx_setting *setting = layer->first; setting; setting = setting->next) {
+  for (struct gx_setting *setting = layer->first; setting; setting = setting->next) {
     int rival = gx_setting_rival(setting->id);
     if (rival >= 0) combination->held[rival] = NULL;
     combination->held[setting->id] = setting;
   }
-  int wheel_of_zip[GX_PARAMETERS + 1];
-  for (int i = 0; i <= GX_PARAMETERS; i++) wheel_of_zip[i] = -1;
   for (int id = 0; id < GX_PARAMETERS; id++) {
     combination->wheel_of[id] = -1;
     if (combination->held[id] && !combination->held[id]->count) combination->held[id] = NULL;
   }
-  for (size_t i = 0; i < settings->ordered; i++) {
-    enum gx_parameter_id id = settings->order[i];
-    const struct gx_setting *setting = combination->held[id];
-    if (!setting || !setting->listed) continue;
-    int zip = settings->zip[id], with = zip ? wheel_of_zip[zip] : -1;
-    struct wheel *wheel = with < 0 ? NULL : &combination->wheel[with];
-    if (wheel && wheel->count == setting->count) {
-      combination->wheel_of[id] = with;
-      continue;
-    }
-    if (wheel && !wheel->setting->bad && !setting->bad)
-      gx_errors_add(settings->errors, setting->place, "zip: %s has %zu values here, but %s has %zu; give equally many",
-                    gx_parameters[id].path, setting->count, gx_parameters[wheel->setting->id].path, wheel->count);
-    combination->wheel_of[id] = wheel_of_zip[zip] = combination->wheels;
-    combination->wheel[combination->wheels++] = (struct wheel){.count = setting->count, .setting = setting};
-  }
+  place_wheels(settings, combination);
 }
 
 static bool turn(struct combination *combination)
@@ -281,8 +303,8 @@ void gx_expansion_run(struct gx_settings *settings)
   free(expansion.hash);
   free(expansion.slot);
   for (int id = 0; id < GX_PARAMETERS; id++)
-    if (expansion.held[id] && !expansion.applied[id])
-      gx_errors_add(errors, expansion.held[id]->place, "%s applies to no case; remove it (it is the %s)", gx_parameters[id].path,
+    if (expansion.held[id] && !expansion.applied[id] && !settings->incomplete)
+      gx_errors_add(errors, expansion.held[id]->place, "%s applies to no case; remove it (%s)", gx_parameters[id].path,
                     gx_parameters[id].help);
   find_axes(settings, settings->study);
 }

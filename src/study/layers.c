@@ -156,13 +156,15 @@ static void read_setting(struct gx_settings *settings, struct gx_layer *layer, i
   }
   struct gx_setting *setting = gx_setting_read(settings, (enum gx_parameter_id)id, key->place, key->next);
   if (!setting) return;
-  *layer->tail = setting;
-  layer->tail = &setting->next;
   name(settings, id);
   int rival = gx_setting_rival((enum gx_parameter_id)id);
-  if (rival < 0 || !(same = gx_setting_find(layer, (enum gx_parameter_id)rival))) return;
-  gx_errors_add(settings->errors, key->place, "%s and %s exclude each other; remove one (the other is at line %d, column %d)",
-                gx_parameters[id].path, gx_parameters[rival].path, same->place.line, same->place.column);
+  if (rival >= 0 && (same = gx_setting_find(layer, (enum gx_parameter_id)rival))) {
+    gx_errors_add(settings->errors, key->place, "%s and %s exclude each other; remove one (the other is at line %d, column %d)",
+                  gx_parameters[id].path, gx_parameters[rival].path, same->place.line, same->place.column);
+    return;
+  }
+  *layer->tail = setting;
+  layer->tail = &setting->next;
 }
 
 static void read_section(struct gx_settings *settings, struct gx_layer *layer, const struct gx_yaml *section)
@@ -249,8 +251,8 @@ static void read_cases(struct gx_settings *settings, const struct gx_yaml *list)
     read_case(settings, entry);
 }
 
-/* One group of parameters that advance together, as number `zip`. */
-static void read_zip_group(struct gx_settings *settings, const struct gx_yaml *group, int zip)
+/* One group of parameters that advance together. */
+static void read_zip_group(struct gx_settings *settings, const struct gx_yaml *group)
 {
   struct gx_errors *errors = settings->errors;
   if (group->kind == GX_YAML_REFUSED) return;
@@ -259,6 +261,7 @@ static void read_zip_group(struct gx_settings *settings, const struct gx_yaml *g
     return;
   }
   const struct gx_setting *first = NULL;
+  int zip = 0;
   for (const struct gx_yaml *node = group->first; node && !gx_errors_full(errors); node = node->next) {
     int id = node->kind == GX_YAML_SCALAR ? gx_parameter_find(node->text) : -1;
     if (node->kind == GX_YAML_REFUSED) continue;
@@ -278,6 +281,7 @@ static void read_zip_group(struct gx_settings *settings, const struct gx_yaml *g
       gx_errors_add(errors, node->place, "zip: %s has %zu values, but %s has %zu; give equally many", node->text, setting->count,
                     gx_parameters[first->id].path, first->count);
     else {
+      if (!zip) zip = id + 1;
       settings->zip[id] = zip;
       if (setting && !setting->bad && !first) first = setting;
     }
@@ -288,12 +292,11 @@ static void read_zip(struct gx_settings *settings, const struct gx_yaml *node)
 {
   bool groups = node->kind == GX_YAML_LIST && node->first && node->first->kind == GX_YAML_LIST;
   if (!groups) {
-    read_zip_group(settings, node, 1);
+    read_zip_group(settings, node);
     return;
   }
-  int zip = 0;
   for (const struct gx_yaml *group = node->first; group && !gx_errors_full(settings->errors); group = group->next)
-    read_zip_group(settings, group, ++zip);
+    read_zip_group(settings, group);
 }
 
 void gx_layers_read(struct gx_settings *settings, const struct gx_yaml *root)

@@ -305,8 +305,7 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
          .choice = transfer_choice,
          .standard = "flip",
          .applies = particles_move,
-         .help = "particle velocity from the grid: by increments, or interpolated; not where the velocity stays on "
-                 "the nodes (moving-mesh with projection once)",
+         .help = "particle velocity from the grid: by increments, or interpolated; not in moving-mesh with projection once",
          .why = "as in the papers: pic damps"},
     [GX_METHOD_FLIP] = {.path = "method.flip",
                         .type = GX_REAL,
@@ -331,8 +330,7 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
          .choice = position_choice,
          .standard = "nodal",
          .applies = particles_move,
-         .help = "velocity that moves particles: the grid's, or their own; not where the velocity stays on the nodes "
-                 "(moving-mesh with projection once)",
+         .help = "velocity that moves particles: the grid's, or their own; not in moving-mesh with projection once",
          .why = "the grid's is single-valued: particles cannot pass one another"},
     [GX_METHOD_PROJECTION] = {.path = "method.projection",
                               .type = GX_TEXT,

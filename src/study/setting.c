@@ -243,7 +243,10 @@ struct gx_setting *gx_setting_read(struct gx_settings *settings, enum gx_paramet
     setting->count = 1;
   }
   setting->bad = errors->count > count || !setting->count || (value->kind == GX_YAML_LIST && setting->count < value->count);
-  if (setting->bad && (parameter->choice || id == GX_PROBLEM_DIMENSION)) settings->uncertain = true;
+  if (setting->bad && (parameter->choice || id == GX_PROBLEM_DIMENSION)) {
+    settings->uncertain = settings->uncertain || !setting->count;
+    settings->incomplete = true;
+  }
   if (setting->listed) settings->varied[id] = true;
   return setting;
 }

@@ -39,12 +39,13 @@ struct gx_settings {
   struct gx_layer base;
   struct gx_layer *cases; /* NULL: the base is the only case */
   struct gx_layer **cases_tail;
-  int zip[GX_PARAMETERS];                    /* number of the zip that the parameter belongs to, 0: none */
+  int zip[GX_PARAMETERS];                    /* 1 + the first parameter of the zip that the parameter belongs to, 0: none */
   enum gx_parameter_id order[GX_PARAMETERS]; /* parameters as first named */
   size_t ordered;
   bool named[GX_PARAMETERS];
   bool varied[GX_PARAMETERS]; /* named or cleared by a case, or a list */
-  bool uncertain;             /* an error hides what other parameters depend on: judge none of them by it */
+  bool uncertain;             /* an error hides what other parameters depend on: do not judge those */
+  bool incomplete;            /* an error hides some of several such values */
   bool name_excused;          /* problem.name may be behind a key that was reported as misspelt */
 };
 

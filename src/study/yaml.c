@@ -15,7 +15,7 @@ struct reader {
   int depth;
   struct gx_yaml *open[DEEPEST + 1];        /* open[0]: the document */
   const struct gx_yaml **tail[DEEPEST + 1]; /* where the next entry goes */
-  bool anchor_reported;
+  bool anchor_reported, broken;
 };
 
 static struct gx_place place_of(const struct reader *reader, const yaml_mark_t *mark)
@@ -42,9 +42,13 @@ static void report_syntax(struct reader *reader, const yaml_parser_t *parser)
 {
   if (parser->error == YAML_MEMORY_ERROR)
     reader->errors->out_of_memory = true;
-  else if (parser->error == YAML_READER_ERROR)
-    gx_errors_add(reader->errors, place_of_byte(reader, parser->problem_offset), "not UTF-8 text: %s", parser->problem);
-  else
+  else if (parser->error == YAML_READER_ERROR) {
+    size_t offset = parser->problem_offset;
+    /* A wrong trailing byte is given: the character starts before it. */
+    if (strstr(parser->problem, "trailing"))
+      while (offset > 0 && ((unsigned char)reader->text[--offset] & 0xC0) == 0x80) continue;
+    gx_errors_add(reader->errors, place_of_byte(reader, offset), "not UTF-8 text: %s", parser->problem);
+  } else
     gx_errors_add(reader->errors, place_of(reader, &parser->problem_mark), "not valid YAML: %s%s%s", parser->problem,
                   parser->context ? " " : "", parser->context ? parser->context : "");
 }
@@ -114,6 +118,7 @@ static bool add_node(struct reader *reader, const yaml_event_t *event, enum gx_y
   if (kind == GX_YAML_REFUSED) return true;
   if (reader->depth == DEEPEST) {
     gx_errors_add(reader->errors, node->place, "nested deeper than %d levels", DEEPEST);
+    reader->broken = true;
     return false;
   }
   reader->depth++;
@@ -173,7 +178,7 @@ const struct gx_yaml *gx_yaml_read(struct gx_arena *arena, struct gx_errors *err
       report_syntax(&reader, &parser);
   }
   yaml_parser_delete(&parser);
-  return valid && !errors->out_of_memory ? document.first : NULL;
+  return valid && !reader.broken && !errors->out_of_memory ? document.first : NULL;
 }
 
 bool gx_yaml_is_empty(const struct gx_yaml *node)
