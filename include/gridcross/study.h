@@ -22,8 +22,10 @@ struct gx_study {
   char *source; /* owned: the run file's text */
   struct gx_case *cases;
   size_t count;
-  size_t duplicates; /* cases that resolved equal to an earlier one and were dropped */
-  char **texts;      /* texts that values point to, owned */
+  size_t duplicates;                        /* cases that resolved equal to an earlier one and were dropped */
+  enum gx_parameter_id axis[GX_PARAMETERS]; /* parameters that the file varies and that differ between cases, in file order */
+  size_t axes;
+  char **texts; /* texts that values point to, owned */
   size_t text_count;
 };
 
@@ -62,7 +64,18 @@ struct gx_plan gx_case_plan(const struct gx_case *one);
 struct gx_result gx_case_run(const struct gx_case *one);
 void gx_case_free(struct gx_result *result);
 
-/* Columns case, every parameter, every result; timing columns last and only if asked. results: [count]. */
+/* Told after every case, by one thread at a time. */
+struct gx_progress {
+  void *context;
+  void (*done)(void *context, size_t done, size_t total);
+};
+
+/* Runs every case on that many threads; equal bits for any number. results: [count], filled. progress may be NULL. */
+void gx_study_run(const struct gx_study *study, size_t threads, const struct gx_progress *progress, struct gx_result *results);
+
+/* Columns case, every parameter, every result; timing columns last and only if asked. results: [count]. NULL when memory runs out. */
 struct gx_table *gx_study_table(const struct gx_study *study, const struct gx_result *results, bool timing);
+/* One row a sample: time, displacement.inf, ..., energy.kinetic, ..., crossings. NULL when memory runs out. */
+struct gx_table *gx_study_table_history(const struct gx_result *result);
 
 #endif
