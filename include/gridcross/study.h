@@ -45,7 +45,7 @@ struct gx_result {
   double steps; /* taken */
   double time;  /* s, reached */
   struct gx_measured measured;
-  double seconds; /* wall time of the steps, measures excluded */
+  double seconds; /* processor time of the steps, measures excluded */
   double ns_per_particle_step;
   struct gx_history history;
 };

@@ -30,6 +30,7 @@ static void read_problem(struct gx_simulation *simulation, const struct gx_case 
   options->mode = (double)integer(one, GX_PROBLEM_MODE, 1);
   options->moduli =
       gx_material_moduli(real(one, GX_PROBLEM_MODULUS, 0), real(one, GX_PROBLEM_POISSON, 0), real(one, GX_PROBLEM_DENSITY, 1));
+  options->interpolation_error = real(one, GX_PROBLEM_INTERPOLATION_ERROR, 0);
   const struct gx_value *active = &one->value[GX_PROBLEM_ACTIVE], *phases = &one->value[GX_PROBLEM_PHASES];
   const char *phase = phases->type == GX_TEXT ? phases->text : "";
   for (int d = 0; d < options->dim; d++) {
