@@ -41,11 +41,13 @@ struct gx_history {
 
 struct gx_result {
   struct gx_outcome outcome;
-  double dt;    /* s */
-  double steps; /* taken */
-  double time;  /* s, reached */
+  double dt;        /* s */
+  double steps;     /* taken */
+  double time;      /* s, reached */
+  double stable_dt; /* s, estimated at the start; NaN: not estimated (short runs that ended well) */
   struct gx_measured measured;
-  double seconds; /* processor time of the steps, measures excluded */
+  double reference[GX_QUANTITIES][GX_NORMS]; /* final state less that of dt / output.reference; NaN: not asked */
+  double seconds;                            /* processor time of the steps, measures excluded */
   double ns_per_particle_step;
   struct gx_history history;
 };

@@ -120,6 +120,16 @@ static int print_table(const struct gx_options *options, const struct gx_study *
   return failed ? gx_command_no_memory() : GX_EXIT_DONE;
 }
 
+static void warn_unstable(const struct gx_study *study, const struct gx_result *results)
+{
+  size_t above = 0;
+  for (size_t i = 0; i < study->count; i++)
+    if (results[i].dt > results[i].stable_dt && above++ < 10)
+      fprintf(stderr, "warning: case %s: dt = %.4g s is above the largest stable step, about %.4g s\n", study->cases[i].id,
+              results[i].dt, results[i].stable_dt);
+  if (above > 10) fprintf(stderr, "warning: and %zu cases more\n", above - 10);
+}
+
 static int report(const struct gx_options *options, const struct gx_study *study, const struct gx_result *results,
                   const char *directory)
 {
@@ -129,7 +139,9 @@ static int report(const struct gx_options *options, const struct gx_study *study
     fprintf(stderr, "gridcross run: case %s failed: %s\n", study->cases[i].id, results[i].outcome.reason);
     code = GX_EXIT_FAILED;
   }
-  if (!gx_options_value(options, "quiet")) fprintf(stderr, "study: %s\n", directory);
+  if (gx_options_value(options, "quiet")) return code;
+  warn_unstable(study, results);
+  fprintf(stderr, "study: %s\n", directory);
   return code;
 }
 

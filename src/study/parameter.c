@@ -456,6 +456,14 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                              .standard = "0",
                              .help = "keep a sample of every measure each so many steps; 0: none",
                              .why = "a table needs none"},
+    [GX_OUTPUT_REFERENCE] = {.path = "output.reference",
+                             .type = GX_INTEGER,
+                             .unit = "",
+                             .least = 0,
+                             .most = 4096,
+                             .standard = "0",
+                             .help = "run also with dt divided by this, and compare final states: the clock's error alone; 0: no",
+                             .why = "it multiplies the cost"},
 };
 
 int gx_parameter_find(const char *path)

@@ -70,6 +70,7 @@ static void put_case(struct cursor *at, const struct gx_case *one, const struct 
   for (int q = 0; q < GX_QUANTITIES; q++) {
     put_errors(at, "result.", ".final", measured->last.error, q, ok);
     put_errors(at, "result.", ".max", measured->max_error, q, ok);
+    put_errors(at, "result.", ".reference", result->reference, q, ok);
   }
   put_real(at, "result.energy.defect", "J", ok ? measured->max_defect : NAN);
   put_real(at, "result.energy.drift", "", ok ? measured->drift : NAN);
