@@ -53,7 +53,8 @@ int gx_starter_write(FILE *out, const struct gx_problem *problem)
   fprintf(out, "# A run file of gridcross. %s: %s\n", problem->name, problem->help);
   fputs("# Any value may be a list, [16, 32, 64], or a range, {geom: [16, 128, 4]} or {lin: [0, 1, 5]}; lists multiply.\n"
         "# 'zip: [mesh.cells, time.dt]' lets lists advance together; 'cases:' lists changes to this base, run instead of it.\n"
-        "# Values are the defaults; only problem.name is needed. Those commented out follow from others, or do not apply with every method.\n",
+        "# Values are the defaults; only problem.name is needed. Those commented out follow from others, or do not apply with "
+        "every method.\n",
         out);
   fprintf(out, "title: %s\n", problem->name);
   const char *section = "";
