@@ -44,7 +44,7 @@ static void print_method(const char *name, const char *facts, const char *help, 
 static void list_spaces(void)
 {
   for (const struct gx_space_kind *const *s = gx_space_family; *s; s++)
-    print_method((*s)->name, (*s)->fixed_grid ? "(fixed grid)" : "(grid moves along)", (*s)->help, (*s)->source);
+    print_method((*s)->name, (*s)->fixed_grid ? "(fixed grid)" : "", (*s)->help, (*s)->source);
 }
 
 static void list_bases(void)

@@ -128,6 +128,8 @@ class Run(Case):
         self.assertEqual(bare.encode(), (self.dir / "small.study" / "table.csv").read_bytes())
         self.assertEqual(list(rows[0]), list(objects[0]))
         self.assertEqual(list(rows[0])[-2:], ["result.seconds", "result.ns_per_particle_step"])
+        # dt = 0.4 h/c, end = 0.25 * 2/c: 1.25 steps a cell; each case has its own result
+        self.assertEqual([one["result.steps"] for one in objects], [1.25 * one["mesh.cells"] for one in objects])
         for row, one in zip(rows, objects, strict=True):
             for name, text in row.items():
                 if name in ("result.seconds", "result.ns_per_particle_step"):
