@@ -44,8 +44,7 @@ static void print_method(const char *name, const char *facts, const char *help, 
 static void list_spaces(void)
 {
   for (const struct gx_space_kind *const *s = gx_space_family; *s; s++)
-    if (!(*s)->of_problem)
-      print_method((*s)->name, (*s)->fixed_grid ? "(fixed grid)" : "(grid moves along)", (*s)->help, (*s)->source);
+    if (!(*s)->of_problem) print_method((*s)->name, (*s)->fixed_grid ? "(fixed grid)" : "", (*s)->help, (*s)->source);
 }
 
 static void list_bases(void)

@@ -96,6 +96,8 @@ static void print_line(const struct gx_table *table, const int *width, long row,
     const char *text = row == NAMES   ? heading(column->name)
                        : row == UNITS ? column->unit
                                       : gx_sheet_text(column->name, gx_table_get(table, (size_t)row, c), buffer);
+    bool blank = c == last && !right && row >= 0 && gx_table_get(table, (size_t)row, c).type == GX_NULL;
+    if (blank) continue;
     fputs(gap, out);
     gx_sheet_pad(text, c == last && !right ? 0 : width[c], right, out);
     gap = "  ";
