@@ -17,8 +17,8 @@ struct wheel {
 /* One entry of `cases` over the base. */
 struct combination {
   struct gx_setting *held[GX_PARAMETERS]; /* NULL: default */
-  int wheel_of[GX_PARAMETERS];                  /* -1: constant */
-  struct wheel wheel[GX_PARAMETERS];            /* slowest first */
+  int wheel_of[GX_PARAMETERS];            /* -1: constant */
+  struct wheel wheel[GX_PARAMETERS];      /* slowest first */
   int wheels;
 };
 
@@ -27,7 +27,7 @@ struct expansion {
   struct gx_study *study;
   struct gx_value standard[GX_PARAMETERS];
   struct gx_setting *held[GX_PARAMETERS]; /* first setting that a case holds */
-  bool applied[GX_PARAMETERS];                  /* in a case that holds a setting */
+  bool applied[GX_PARAMETERS];            /* in a case that holds a setting */
   struct {
     double real;
     char text[32];
@@ -49,8 +49,8 @@ static void report_zip(struct gx_errors *errors, struct gx_setting *a, struct gx
 {
   struct gx_setting *late = is_later(a->place, b->place) ? a : b, *early = late == a ? b : a;
   if (a->bad || b->bad) return;
-  gx_errors_add(errors, late->place, "zip: %s has %zu values here, but %s has %zu; give equally many", gx_parameters[late->id].path,
-                late->count, gx_parameters[early->id].path, early->count);
+  gx_errors_add(errors, late->place, "zip: %s has %zu values here, but %s has %zu; give equally many",
+                gx_parameters[late->id].path, late->count, gx_parameters[early->id].path, early->count);
   late->bad = true;
 }
 

@@ -27,21 +27,29 @@ static void write_comment(FILE *out, const struct gx_parameter *parameter)
   fputc('\n', out);
 }
 
+/* What another value may change or rule out is commented out, so that the file stays valid when that value is edited. */
+static bool follows(const struct gx_parameter *parameter)
+{
+  bool method = !strncmp(parameter->path, "method.", strlen("method."));
+  return parameter->resolve || (method && parameter->applies);
+}
+
 static void write_value(FILE *out, const struct gx_parameter *parameter, const struct gx_value *value)
 {
   const char *key = strchr(parameter->path, '.') + 1;
+  const char *indent = follows(parameter) ? "  # " : "  ";
   switch (value->type) {
   case GX_NULL:
     fprintf(out, "  # %s:\n", key);
     break;
   case GX_INTEGER:
-    fprintf(out, "  %s: %ld\n", key, value->integer);
+    fprintf(out, "%s%s: %ld\n", indent, key, value->integer);
     break;
   case GX_REAL:
-    fprintf(out, "  %s: %.15g\n", key, value->real);
+    fprintf(out, "%s%s: %.15g\n", indent, key, value->real);
     break;
   case GX_TEXT:
-    fprintf(out, "  %s: %s\n", key, value->text);
+    fprintf(out, "%s%s: %s\n", indent, key, value->text);
     break;
   }
 }
@@ -53,7 +61,8 @@ int gx_starter_write(FILE *out, const struct gx_problem *problem)
   fprintf(out, "# A run file of gridcross. %s: %s\n", problem->name, problem->help);
   fputs("# Any value may be a list, [16, 32, 64], or a range, {geom: [16, 128, 4]} or {lin: [0, 1, 5]}; lists multiply.\n"
         "# 'zip: [mesh.cells, time.dt]' lets lists advance together; 'cases:' lists changes to this base, run instead of it.\n"
-        "# Values are the defaults; only problem.name is needed. Those commented out follow from others, or do not apply with every method.\n",
+        "# Values are the defaults; only problem.name is needed. Those commented out follow from others, or do not apply with "
+        "every method.\n",
         out);
   fprintf(out, "title: %s\n", problem->name);
   const char *section = "";
