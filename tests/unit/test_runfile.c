@@ -112,6 +112,22 @@ static void equal_cases_have_equal_ids(void **state)
   gx_runfile_free(d);
 }
 
+static void accepted_oddities(void **state)
+{
+  (void)state;
+  static const char *const yaml[] = {
+      "\xEF\xBB\xBFproblem: {name: bar-linear}\n", /* byte order mark */
+      "problem:\r\n  name: bar-linear\r\n",        /* lines of Windows */
+      "%YAML 1.1\n---\nproblem.name: bar-linear\n...\n",
+      "problem.name: bar-linear\nmesh:\noutput:\n  # histories: 1\n", /* sections with every key commented out */
+  };
+  for (size_t i = 0; i < sizeof yaml / sizeof *yaml; i++) {
+    struct gx_study *study = read_yaml(yaml[i], NULL, NULL);
+    assert_string_equal(study->cases[0].id, "a2aada6d1842caad");
+    gx_runfile_free(study);
+  }
+}
+
 static void lists_multiply_in_file_order(void **state)
 {
   (void)state;
@@ -143,6 +159,14 @@ static void ranges(void **state)
     assert_true(value[GX_TIME_END].real == end[i % 5]);
     assert_int_equal(value[GX_TIME_CFL].type, GX_NULL);
     assert_int_equal(value[GX_TIME_PERIODS].type, GX_NULL);
+  }
+  gx_runfile_free(study);
+  /* Rounding would make these 0.39999999999999997, 0.6000000000000001 and 0.009999999999999993. */
+  study = read_yaml("problem: {name: bar-linear}\ntime: {dt: {geom: [1e-6, 1, 7]}, end: {lin: [0.1, 0.7, 7]}}\n", NULL, NULL);
+  for (size_t i = 0; i < 49; i++) {
+    static const double dt[] = {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1}, end[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7};
+    assert_true(study->cases[i].value[GX_TIME_DT].real == dt[i / 7]);
+    assert_true(study->cases[i].value[GX_TIME_END].real == end[i % 7]);
   }
   gx_runfile_free(study);
   study = read_yaml("problem: {name: bar-linear}\ntime: {dt: {geom: [1e-300, 1e300, 3]}}\nmesh: {cells: {lin: [10, 4, 4]}}", NULL,
@@ -214,6 +238,11 @@ static void a_rival_clears(void **state)
   COLUMN(study, GX_TIME_CFL, "0.10000000000000001 0.20000000000000001 - - -");
   COLUMN(study, GX_TIME_END, "3 3 3 - -");
   COLUMN(study, GX_TIME_PERIODS, "- - - 5 5");
+  assert_int_equal(study->axes, 4); /* end varies because a case clears it */
+  assert_int_equal(study->axis[0], GX_TIME_CFL);
+  assert_int_equal(study->axis[1], GX_TIME_END);
+  assert_int_equal(study->axis[2], GX_TIME_DT);
+  assert_int_equal(study->axis[3], GX_TIME_PERIODS);
   gx_runfile_free(study);
   study = read_yaml(yaml, (const char *const[]){"time.dt=8", "time.periods=7", NULL}, NULL);
   COLUMN(study, GX_TIME_DT, "8 1 2 4");
@@ -375,6 +404,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(defaults_and_id),
       cmocka_unit_test(equal_cases_have_equal_ids),
+      cmocka_unit_test(accepted_oddities),
       cmocka_unit_test(lists_multiply_in_file_order),
       cmocka_unit_test(ranges),
       cmocka_unit_test(zips),
