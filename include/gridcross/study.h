@@ -45,7 +45,7 @@ struct gx_result {
   double steps; /* taken */
   double time;  /* s, reached */
   struct gx_measured measured;
-  double seconds; /* wall time of the steps, measures excluded */
+  double seconds; /* processor time of the steps, measures excluded */
   double ns_per_particle_step;
   struct gx_history history;
 };
@@ -64,7 +64,18 @@ struct gx_plan gx_case_plan(const struct gx_case *one);
 struct gx_result gx_case_run(const struct gx_case *one);
 void gx_case_free(struct gx_result *result);
 
-/* Columns case, every parameter, every result; timing columns last and only if asked. results: [count]. */
+/* Told after every case, by one thread at a time. */
+struct gx_progress {
+  void *context;
+  void (*done)(void *context, size_t done, size_t total);
+};
+
+/* Runs every case on that many threads; equal bits for any number. results: [count], filled. progress may be NULL. */
+void gx_study_run(const struct gx_study *study, size_t threads, const struct gx_progress *progress, struct gx_result *results);
+
+/* Columns case, every parameter, every result; timing columns last and only if asked. results: [count]. NULL when memory runs out. */
 struct gx_table *gx_study_table(const struct gx_study *study, const struct gx_result *results, bool timing);
+/* One row a sample: time, displacement.inf, ..., energy.kinetic, ..., crossings. NULL when memory runs out. */
+struct gx_table *gx_study_table_history(const struct gx_result *result);
 
 #endif

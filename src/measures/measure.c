@@ -136,13 +136,23 @@ static void errors(struct gx_measure *measure, double t, double error[GX_QUANTIT
   norms(measure, dim * dim, measure->stress.component, measure->exact_stress.component, error[GX_STRESS]);
 }
 
+static double potential(struct gx_measure *measure)
+{
+  const struct gx_space *space = measure->space;
+  const struct gx_particles *particles = space->particles;
+  const struct gx_posed *posed = space->posed;
+  if (space->kind->potential) return space->kind->potential(space);
+  double elastic = 0;
+  posed->problem->material->energy(&posed->options.moduli, measure->dim, measure->n, particles->F, measure->energy);
+  for (size_t p = 0; p < measure->n; p++) elastic += particles->V0[p] * measure->energy[p];
+  return elastic;
+}
+
 static void energies(struct gx_measure *measure, double dt, struct gx_sample *sample)
 {
   const struct gx_particles *particles = measure->space->particles;
   const struct gx_posed *posed = measure->space->posed;
-  posed->problem->material->energy(&posed->options.moduli, measure->dim, measure->n, particles->F, measure->energy);
-  double kinetic = 0, elastic = 0, defect = 0;
-  for (size_t p = 0; p < measure->n; p++) elastic += particles->V0[p] * measure->energy[p];
+  double kinetic = 0, defect = 0;
   for (int d = 0; d < measure->dim; d++) {
     const double *v = measure->v.component[d], *v0 = measure->v_before.component[d];
     const double *a = measure->a.component[d], *a0 = measure->a_before.component[d];
@@ -153,7 +163,7 @@ static void energies(struct gx_measure *measure, double dt, struct gx_sample *sa
     }
   }
   sample->kinetic = kinetic;
-  sample->elastic = elastic;
+  sample->elastic = potential(measure);
   sample->kinetic_nodes = measure->space->kind->kinetic(measure->space);
   sample->defect = measure->started ? fabs(dt * defect) : NAN;
   sample->work = measure->work;

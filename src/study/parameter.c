@@ -34,9 +34,16 @@ static bool is_text(struct gx_value value, const char *text)
     return family[i] ? family[i]->name : NULL;                                                                                   \
   }
 FAMILY_CHOICE(problem_choice, gx_problem_family)
-FAMILY_CHOICE(space_choice, gx_space_family)
 FAMILY_CHOICE(basis_choice, gx_basis_family)
 FAMILY_CHOICE(clock_choice, gx_clock_family)
+
+/* Spaces that belong to one problem are no choice. */
+static const char *space_choice(int i)
+{
+  for (const struct gx_space_kind *const *kind = gx_space_family; *kind; kind++)
+    if (!(*kind)->of_problem && i-- == 0) return (*kind)->name;
+  return NULL;
+}
 
 #define CHOICE(function, ...)                                                                                                    \
   static const char *function(int i)                                                                                             \
@@ -62,9 +69,19 @@ static const struct gx_problem *problem_of(const struct gx_value *value)
   return gx_problem_find(value[GX_PROBLEM_NAME].text);
 }
 
+static bool is_continuum(const struct gx_value *value)
+{
+  return !problem_of(value)->space;
+}
+
 static const struct gx_space_kind *space_of(const struct gx_value *value)
 {
-  return gx_space_find(value[GX_METHOD_SPACE].text);
+  return value[GX_METHOD_SPACE].type == GX_TEXT ? gx_space_find(value[GX_METHOD_SPACE].text) : NULL;
+}
+
+static bool interpolation_error_applies(const struct gx_value *value)
+{
+  return !is_continuum(value);
 }
 
 static bool poisson_applies(const struct gx_value *value)
@@ -84,13 +101,14 @@ static bool directions_apply(const struct gx_value *value)
 
 static bool degree_applies(const struct gx_value *value)
 {
-  return gx_basis_find(value[GX_METHOD_BASIS].text)->has_degree;
+  return value[GX_METHOD_BASIS].type == GX_TEXT && gx_basis_find(value[GX_METHOD_BASIS].text)->has_degree;
 }
 
 /* Particles that only sample the nodal field carry no velocity of their own. */
 static bool particles_move(const struct gx_value *value)
 {
-  return space_of(value)->fixed_grid || !is_text(value[GX_METHOD_PROJECTION], "once");
+  const struct gx_space_kind *space = space_of(value);
+  return space && (space->fixed_grid || !is_text(value[GX_METHOD_PROJECTION], "once"));
 }
 
 static bool flip_applies(const struct gx_value *value)
@@ -100,7 +118,7 @@ static bool flip_applies(const struct gx_value *value)
 
 static bool cfl_applies(const struct gx_value *value)
 {
-  return value[GX_TIME_DT].type == GX_NULL;
+  return value[GX_TIME_DT].type == GX_NULL && is_continuum(value);
 }
 
 static bool periods_applies(const struct gx_value *value)
@@ -125,6 +143,12 @@ static struct gx_value phases_default(const struct gx_value *value)
 {
   static const char *const zeros[] = {"0", "0 0", "0 0 0"};
   return text_value(zeros[value[GX_PROBLEM_DIMENSION].integer - 1]);
+}
+
+/* Without cells there is no CFL number. */
+static struct gx_value dt_default(const struct gx_value *value)
+{
+  return is_continuum(value) ? null : (struct gx_value){.type = GX_REAL, .real = 1e-3};
 }
 
 static struct gx_value projection_default(const struct gx_value *value)
@@ -180,6 +204,7 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                               .least = 0,
                               .most = INFINITY,
                               .standard = "0.05",
+                              .applies = is_continuum,
                               .help = "amplitude A of the displacement; the domain has length 1",
                               .why = "large enough that particles cross cells; used throughout the literature"},
     [GX_PROBLEM_MODULUS] = {.path = "problem.modulus",
@@ -198,6 +223,7 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                             .most = INFINITY,
                             .above_least = true,
                             .standard = "1",
+                            .applies = is_continuum,
                             .help = "density of the undeformed body",
                             .why = "it only scales time"},
     [GX_PROBLEM_POISSON] = {.path = "problem.poisson",
@@ -216,6 +242,7 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                              .unit = "",
                              .choice = boundary_choice,
                              .resolve = boundary_default,
+                             .applies = is_continuum,
                              .help = "ends of the domain: periodic, or fixed at zero displacement",
                              .why = "by problem: as the paper that poses it"},
     [GX_PROBLEM_MODE] = {.path = "problem.mode",
@@ -245,12 +272,22 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                            .help = "phase of each direction in multiples of pi, one number a dimension, such as 0 0.5; "
                                    "axis-aligned problems",
                            .why = "zeros: all directions move in step"},
+    [GX_PROBLEM_INTERPOLATION_ERROR] = {.path = "problem.interpolation_error",
+                                        .type = GX_REAL,
+                                        .unit = "m/s",
+                                        .least = -INFINITY,
+                                        .most = INFINITY,
+                                        .standard = "0",
+                                        .applies = interpolation_error_applies,
+                                        .help = "error added to the velocity in every drift, never stored; oscillator",
+                                        .why = "0: the clock's own error"},
     [GX_MESH_CELLS] = {.path = "mesh.cells",
                        .type = GX_INTEGER,
                        .unit = "",
                        .least = 1,
                        .most = 1e7,
                        .standard = "32",
+                       .applies = is_continuum,
                        .help = "cells in each direction",
                        .why = "fine enough for the asymptotic range, coarse enough for a quick answer"},
     [GX_MESH_PARTICLES_PER_CELL] = {.path = "mesh.particles_per_cell",
@@ -259,6 +296,7 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                                     .least = 1,
                                     .most = 1000,
                                     .standard = "4",
+                                    .applies = is_continuum,
                                     .help = "particles per cell in each direction",
                                     .why = "quadrature errors then stay below those of the grid at moderate resolution"},
     [GX_MESH_LAYOUT] = {.path = "mesh.layout",
@@ -266,6 +304,7 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                         .unit = "",
                         .choice = layout_choice,
                         .standard = "uniform",
+                        .applies = is_continuum,
                         .help = "where particles start in a cell: equal parts, or Gauss points with Gauss weights as volumes",
                         .why = "as nearly all published computations"},
     [GX_METHOD_SPACE] = {.path = "method.space",
@@ -273,6 +312,7 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                          .unit = "",
                          .choice = space_choice,
                          .standard = "standard",
+                         .applies = is_continuum,
                          .help = "discretisation in space",
                          .why = "the method that the others are compared with"},
     [GX_METHOD_BASIS] = {.path = "method.basis",
@@ -280,6 +320,7 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                          .unit = "",
                          .choice = basis_choice,
                          .standard = "bspline",
+                         .applies = is_continuum,
                          .help = "basis functions of the grid",
                          .why = "smooth across cells, so that crossings cost little"},
     [GX_METHOD_DEGREE] = {.path = "method.degree",
@@ -296,6 +337,7 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                         .unit = "",
                         .choice = mass_choice,
                         .standard = "lumped",
+                        .applies = is_continuum,
                         .help = "mass matrix: row sums, or the full matrix solved each step",
                         .why = "cheap, and the literature's; consistent is needed for order above 2"},
     [GX_METHOD_TRANSFER] =
@@ -337,6 +379,7 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                               .unit = "",
                               .choice = projection_choice,
                               .resolve = projection_default,
+                              .applies = is_continuum,
                               .help = "nodal velocity projected from particles each step, or once at the start",
                               .why = "by space: each-step on a fixed grid, once on a grid that moves along"},
     [GX_METHOD_STRESS] = {.path = "method.stress",
@@ -344,6 +387,7 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                           .unit = "",
                           .choice = stress_choice,
                           .standard = "F",
+                          .applies = is_continuum,
                           .help = "stress from the deformation gradient F, or integrated from its rate",
                           .why = "no drift away from the material law"},
     [GX_TIME_DT] = {.path = "time.dt",
@@ -352,8 +396,9 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                     .least = 0,
                     .most = INFINITY,
                     .above_least = true,
+                    .resolve = dt_default,
                     .help = "time step; excludes time.cfl",
-                    .why = "none: time.cfl sets the step"},
+                    .why = "none: time.cfl sets the step; 1e-3 for problems without cells"},
     [GX_TIME_CFL] = {.path = "time.cfl",
                      .type = GX_REAL,
                      .unit = "",
