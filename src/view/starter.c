@@ -9,6 +9,7 @@
 
 static void write_range(FILE *out, const struct gx_parameter *parameter)
 {
+  if (parameter->least == -INFINITY) return; /* any number */
   if (parameter->most < INFINITY)
     fprintf(out, "; %.15g to %.15g%s", parameter->least, parameter->most,
             parameter->above_least && parameter->below_most ? ", both excluded" : "");

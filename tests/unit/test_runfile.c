@@ -354,11 +354,14 @@ static void starters_read_back(void **state)
         assert_non_null(strstr(text, key));
       }
     gx_runfile_free(study);
+    /* Another method is one edit away, where methods are a choice. */
+    bool chooses = plain->cases[0].value[GX_METHOD_SPACE].type == GX_TEXT;
     gx_runfile_free(plain);
-    /* Another method is one edit away. */
-    study = read_yaml(text, (const char *const[]){"method.space=moving-mesh", "method.basis=linear", NULL}, NULL);
-    COLUMN(study, GX_METHOD_PROJECTION, "once");
-    gx_runfile_free(study);
+    if (chooses) {
+      study = read_yaml(text, (const char *const[]){"method.space=moving-mesh", "method.basis=linear", NULL}, NULL);
+      COLUMN(study, GX_METHOD_PROJECTION, "once");
+      gx_runfile_free(study);
+    }
     free(text);
   }
 }
