@@ -50,13 +50,21 @@ static int compare(const void *left, const void *right)
   return a->order < b->order ? -1 : 1;
 }
 
+/* One line, whatever the argument holds. */
+static void print_set(FILE *out, const char *set, const char *message)
+{
+  fputs("--set ", out);
+  for (; *set; set++) fputc((unsigned char)*set < 0x20 || *set == 0x7F ? ' ' : *set, out);
+  fprintf(out, ": %s\n", message);
+}
+
 void gx_errors_print(struct gx_errors *errors, const char *path, const char *const *set, FILE *out)
 {
   if (errors->count) qsort(errors->error, errors->count, sizeof *errors->error, compare);
   for (size_t i = 0; i < errors->count; i++) {
     const struct gx_error *error = &errors->error[i];
     if (error->place.set)
-      fprintf(out, "--set %s: %s\n", set[error->place.set - 1], error->message);
+      print_set(out, set[error->place.set - 1], error->message);
     else if (error->place.line)
       fprintf(out, "%s:%d:%d: %s\n", path, error->place.line, error->place.column, error->message);
     else

@@ -131,11 +131,11 @@ static double as_real(struct gx_value value)
   return value.type == GX_INTEGER ? (double)value.integer : value.real;
 }
 
-/* Fifteen digits, so that a range gives the numbers that one would write, whatever the library's pow. */
-static double fifteen_digits(double x)
+/* Fourteen digits, so that a range gives the numbers that one would write, whatever the library's pow. */
+static double fourteen_digits(double x)
 {
   char text[32];
-  snprintf(text, sizeof text, "%.15g", x);
+  snprintf(text, sizeof text, "%.14g", x);
   return strtod(text, NULL);
 }
 
@@ -153,7 +153,7 @@ static void fill_range(struct gx_settings *settings, struct gx_setting *setting,
   double a = as_real(first), b = as_real(last);
   if (!take_items(settings, setting, n)) return;
   for (size_t i = 0; i < n; i++) {
-    double x = fifteen_digits(between(geom, a, b, (double)i / (double)(n - 1)));
+    double x = fourteen_digits(between(geom, a, b, (double)i / (double)(n - 1)));
     struct gx_value value = i == 0 ? first : i == n - 1 ? last : (struct gx_value){.type = GX_REAL, .real = x};
     if (first.type == GX_INTEGER && value.type == GX_REAL) {
       if (fabs(x - nearbyint(x)) > 1e-9) {

@@ -9,6 +9,7 @@
 
 static void write_range(FILE *out, const struct gx_parameter *parameter)
 {
+  if (parameter->least == -INFINITY) return; /* any number */
   if (parameter->most < INFINITY)
     fprintf(out, "; %.15g to %.15g%s", parameter->least, parameter->most,
             parameter->above_least && parameter->below_most ? ", both excluded" : "");
@@ -27,21 +28,29 @@ static void write_comment(FILE *out, const struct gx_parameter *parameter)
   fputc('\n', out);
 }
 
+/* What another value may change or rule out is commented out, so that the file stays valid when that value is edited. */
+static bool follows(const struct gx_parameter *parameter)
+{
+  bool method = !strncmp(parameter->path, "method.", strlen("method."));
+  return parameter->resolve || (method && parameter->applies);
+}
+
 static void write_value(FILE *out, const struct gx_parameter *parameter, const struct gx_value *value)
 {
   const char *key = strchr(parameter->path, '.') + 1;
+  const char *indent = follows(parameter) ? "  # " : "  ";
   switch (value->type) {
   case GX_NULL:
     fprintf(out, "  # %s:\n", key);
     break;
   case GX_INTEGER:
-    fprintf(out, "  %s: %ld\n", key, value->integer);
+    fprintf(out, "%s%s: %ld\n", indent, key, value->integer);
     break;
   case GX_REAL:
-    fprintf(out, "  %s: %.15g\n", key, value->real);
+    fprintf(out, "%s%s: %.15g\n", indent, key, value->real);
     break;
   case GX_TEXT:
-    fprintf(out, "  %s: %s\n", key, value->text);
+    fprintf(out, "%s%s: %s\n", indent, key, value->text);
     break;
   }
 }
