@@ -13,7 +13,7 @@ GX_CLONES static long evaluate(const struct gx_axis *axis, size_t n, const doubl
   int outside = 0;
   for (size_t p = 0; p < n; p++) {
     double l = half[p] * cells;
-    outside |= !(l > 0 && l <= widest);
+    outside |= !(l > 0) | !(l <= widest);
     gx_gimp_weights(cells, n, p, gx_locate(periodic, cells, x[p]), l, first, S, D);
   }
   if (outside)

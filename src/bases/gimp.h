@@ -24,8 +24,10 @@ GX_CORE void gx_gimp_weights(int cells, size_t n, size_t p, double s, double l, 
   int nearest = (int)(s + 0.5);
   double t = s - nearest;
   double a = l - t, b = l + t;
-  a = a < 0 ? 0 : a > 2 * l ? 2 * l : a;
-  b = b < 0 ? 0 : b > 2 * l ? 2 * l : b;
+  a = a > 0 ? a : 0;
+  b = b > 0 ? b : 0;
+  a = a < 2 * l ? a : 2 * l;
+  b = b < 2 * l ? b : 2 * l;
   double scale = 0.5 / l;
   double slope_left = a * scale, slope_right = b * scale;
   double beyond_left = -t - l, beyond_right = t - l;

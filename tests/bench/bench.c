@@ -37,9 +37,9 @@ static const struct contest contests[] = {
      plain_moving_mesh_linear_start, plain_moving_mesh_linear, plain_moving_mesh_linear_sample},
     {"1-D moving mesh quadratic", "bar-neo-hookean", "moving-mesh", "bspline", "central-difference", 1, 64, 4, 2, true, 2000,
      plain_moving_mesh_quadratic_start, plain_moving_mesh_quadratic, plain_moving_mesh_quadratic_sample},
-    {"3-D standard quadratic", "axis-aligned", "standard", "bspline", "central-difference", 3, 16, 2, 2, true, 10, NULL,
+    {"3-D standard quadratic", "axis-aligned", "standard", "bspline", "central-difference", 3, 16, 2, 2, true, 20, NULL,
      plain_standard_3d, NULL},
-    {"3-D moving mesh quadratic", "axis-aligned", "moving-mesh", "bspline", "central-difference", 3, 16, 2, 2, true, 10,
+    {"3-D moving mesh quadratic", "axis-aligned", "moving-mesh", "bspline", "central-difference", 3, 16, 2, 2, true, 20,
      plain_moving_mesh_3d_start, plain_moving_mesh_3d, plain_moving_mesh_3d_sample},
 };
 
