@@ -42,4 +42,26 @@ GX_CORE void gx_gimp_weights(int cells, size_t n, size_t p, double s, double l, 
   D[2 * n + p] = slope_right * cells;
 }
 
+static const double gx_gimp_widest = 0.5 * (1 + 1e-12); /* cells */
+
+/* Weights at n points; returns whether a domain is not between 0 and one cell wide. `periodic` is constant for vectorisation. */
+GX_CORE bool gx_gimp_points(const bool periodic, int cells, size_t n, const double *restrict x, const double *restrict half,
+                            int *restrict first, double *restrict S, double *restrict D)
+{
+  int outside = 0;
+  for (size_t p = 0; p < n; p++) {
+    double l = half[p] * cells;
+    outside |= !(l > 0) | !(l <= gx_gimp_widest);
+    gx_gimp_weights(cells, n, p, gx_locate(periodic, cells, x[p]), l, first, S, D);
+  }
+  return outside;
+}
+
+GX_CORE bool gx_gimp_evaluate(const struct gx_axis *axis, size_t n, const double *restrict x, const double *restrict half,
+                              int *restrict first, double *restrict S, double *restrict D)
+{
+  return axis->periodic ? gx_gimp_points(true, axis->cells, n, x, half, first, S, D)
+                        : gx_gimp_points(false, axis->cells, n, x, half, first, S, D);
+}
+
 #endif

@@ -26,12 +26,14 @@ struct contest {
 
 static const double modulus = 1e4, density = 1, amplitude = 0.05, cfl = 0.4, tolerance = 1e-12;
 
+/* The steps are few enough for round-off not to have grown to what agreement is judged by: cpGIMP multiplies it by a hundred in
+ * 500 steps, and the linear basis is unstable from about step 3000. */
 static const struct contest contests[] = {
     {"1-D standard linear", "bar-neo-hookean", "standard", "linear", "central-difference", 1, 64, 4, 1, true, 2000, NULL,
      plain_standard_linear, NULL},
     {"1-D standard quadratic", "bar-neo-hookean", "standard", "bspline", "central-difference", 1, 64, 4, 2, true, 2000, NULL,
      plain_standard_quadratic, NULL},
-    {"1-D cpGIMP Euler", "bar-linear", "standard", "cpgimp", "euler-stress-first", 1, 64, 4, 1, false, 2000, NULL, plain_cpgimp,
+    {"1-D cpGIMP Euler", "bar-linear", "standard", "cpgimp", "euler-stress-first", 1, 64, 4, 1, false, 500, NULL, plain_cpgimp,
      NULL},
     {"1-D moving mesh linear", "bar-neo-hookean", "moving-mesh", "linear", "central-difference", 1, 64, 4, 1, true, 2000,
      plain_moving_mesh_linear_start, plain_moving_mesh_linear, plain_moving_mesh_linear_sample},
