@@ -3,8 +3,7 @@
 #ifndef GRIDCROSS_CORE_KERNEL_H
 #define GRIDCROSS_CORE_KERNEL_H
 
-/* A kernel compiled for several instruction sets; equal bits, since nothing contracts to FMA. On static functions only: clang 14
- * does not find clones of another file. */
+/* An elementwise kernel compiled for several instruction sets; equal bits, since nothing contracts to FMA. */
 #if GX_HAVE_CLONES
 #define GX_CLONES __attribute__((target_clones("avx2", "default")))
 #else

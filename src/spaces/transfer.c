@@ -102,8 +102,8 @@ GX_CORE void scatter(const int dim, const int s, const struct gx_weights *w, con
   }
 }
 
-GX_CLONES static void scatter_any(const struct gx_weights *weights, const double *m, double *const *value, double *total,
-                                  double *const *moment)
+GX_CLONES void gx_transfer_scatter(const struct gx_weights *weights, const double *m, double *const *value, double *total,
+                                   double *const *moment)
 {
   if (!value)
     SPECIALISE(scatter, weights, m, NULL, total, NULL);
@@ -111,12 +111,6 @@ GX_CLONES static void scatter_any(const struct gx_weights *weights, const double
     SPECIALISE(scatter, weights, m, value, total, moment);
   else
     SPECIALISE(scatter, weights, m, value, NULL, moment);
-}
-
-void gx_transfer_scatter(const struct gx_weights *weights, const double *m, double *const *value, double *total,
-                         double *const *moment)
-{
-  scatter_any(weights, m, value, total, moment);
 }
 
 GX_CORE void scatter_force(const int dim, const int s, const struct gx_weights *w, double *const *T, const double *m,
@@ -151,19 +145,13 @@ GX_CORE void scatter_force(const int dim, const int s, const struct gx_weights *
   }
 }
 
-GX_CLONES static void scatter_force_any(const struct gx_weights *weights, double *const *T, const double *m, double *const *b,
-                                        double *const *force)
+GX_CLONES void gx_transfer_scatter_force(const struct gx_weights *weights, double *const *T, const double *m, double *const *b,
+                                         double *const *force)
 {
   if (b)
     SPECIALISE(scatter_force, weights, T, m, b, force);
   else
     SPECIALISE(scatter_force, weights, T, m, NULL, force);
-}
-
-void gx_transfer_scatter_force(const struct gx_weights *weights, double *const *T, const double *m, double *const *b,
-                               double *const *force)
-{
-  scatter_force_any(weights, T, m, b, force);
 }
 
 /* take_a: acceleration: S-sums of a; take_v: velocity: S-sums of v; take_slopes: gradient: D-sums of v. */
@@ -209,29 +197,18 @@ GX_CORE void gather(const int dim, const int s, const struct gx_weights *w, cons
   }
 }
 
-GX_CLONES static void gather_any(const struct gx_weights *weights, double *const *a, double *const *acceleration,
-                                 double *const *v, double *const *velocity, double *const *gradient)
+GX_CLONES void gx_transfer_gather(const struct gx_weights *weights, double *const *field, double *const *value)
 {
-  if (a)
-    SPECIALISE(gather, weights, true, a, acceleration, true, v, velocity, true, gradient);
-  else if (velocity)
-    SPECIALISE(gather, weights, false, NULL, NULL, true, v, velocity, false, NULL);
-  else
-    SPECIALISE(gather, weights, false, NULL, NULL, false, v, NULL, true, gradient);
+  SPECIALISE(gather, weights, false, NULL, NULL, true, field, value, false, NULL);
 }
 
-void gx_transfer_gather(const struct gx_weights *weights, double *const *field, double *const *value)
+GX_CLONES void gx_transfer_gather_gradient(const struct gx_weights *weights, double *const *field, double *const *gradient)
 {
-  gather_any(weights, NULL, NULL, field, value, NULL);
+  SPECIALISE(gather, weights, false, NULL, NULL, false, field, NULL, true, gradient);
 }
 
-void gx_transfer_gather_gradient(const struct gx_weights *weights, double *const *field, double *const *gradient)
+GX_CLONES void gx_transfer_gather_all(const struct gx_weights *weights, double *const *a, double *const *v,
+                                      double *const *acceleration, double *const *velocity, double *const *gradient)
 {
-  gather_any(weights, NULL, NULL, field, NULL, gradient);
-}
-
-void gx_transfer_gather_all(const struct gx_weights *weights, double *const *a, double *const *v, double *const *acceleration,
-                            double *const *velocity, double *const *gradient)
-{
-  gather_any(weights, a, acceleration, v, velocity, gradient);
+  SPECIALISE(gather, weights, true, a, acceleration, true, v, velocity, true, gradient);
 }
