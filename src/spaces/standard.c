@@ -117,6 +117,18 @@ static void kick_particles(struct gx_mesh *mesh, double kick)
   }
 }
 
+/* What an advance needs of the nodes, in one pass when it is all. */
+static void gather(struct gx_mesh *mesh, bool acceleration, bool velocity, bool gradient)
+{
+  if (acceleration && velocity && gradient) {
+    gx_transfer_gather_all(&mesh->weights, mesh->a, mesh->v, mesh->gathered_a, mesh->gathered_v, mesh->gradient);
+    return;
+  }
+  if (acceleration) gx_transfer_gather(&mesh->weights, mesh->a, mesh->gathered_a);
+  if (velocity) gx_transfer_gather(&mesh->weights, mesh->v, mesh->gathered_v);
+  if (gradient) gx_transfer_gather_gradient(&mesh->weights, mesh->v, mesh->gradient);
+}
+
 static void advance(struct gx_space *space, double kick, double strain, double drift)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
@@ -125,7 +137,8 @@ static void advance(struct gx_space *space, double kick, double strain, double d
   size_t n = particles->n;
   if (kick != 0)
     for (int d = 0; d < dim; d++) gx_vector_add(mesh->grid.stored, kick, mesh->a[d], mesh->v[d]);
-  gx_transfer_gather_all(&mesh->weights, mesh->a, mesh->v, mesh->gathered_a, mesh->gathered_v, mesh->gradient);
+  bool blend = mesh->options.pic || mesh->options.flip < 1;
+  gather(mesh, kick != 0, drift != 0 || (kick != 0 && blend), strain != 0);
   if (kick != 0) kick_particles(mesh, kick);
   if (strain != 0) {
     stretch(dim, n, particles->F, mesh->gradient);
@@ -167,7 +180,7 @@ static void strain_back(struct gx_mesh *mesh, double span)
   gx_transfer_gather_gradient(&mesh->weights, mesh->v, mesh->gradient);
   GX_FOR_DIM(dimension, stretch_back_points(dim, n, span, mesh->gradient, particles->F))
   if (!mesh->options.stress_rate) return;
-  stretch(dimension, n, mesh->gradient, particles->F, mesh->gradient);
+  stretch(dimension, n, particles->F, mesh->gradient);
   rate_of_stress(&mesh->space, mesh->gradient, mesh->rate_P);
   for (int k = 0; k < dimension * dimension; k++) gx_vector_add(n, span, mesh->rate_P[k], particles->P[k]);
 }
