@@ -105,7 +105,10 @@ static inline void case_apply(struct gx_case *one, const char *const *set)
     while (id < GX_PARAMETERS &&
            (strlen(case_path(id)) != (size_t)(equals - *set) || strncmp(case_path(id), *set, (size_t)(equals - *set))))
       id++;
-    CHECK(id < GX_PARAMETERS, "%s", *set);
+    if (id == GX_PARAMETERS) {
+      fail_msg("no parameter for %s", *set);
+      return;
+    }
     case_set(one, (enum gx_parameter_id)id, equals + 1);
   }
 }
