@@ -51,7 +51,7 @@ static void each_setting(void (*check)(const struct setting *setting))
 /* [components][stored] of a nodal field, and [components][N] of a particle field. */
 static double **fields(int count, size_t length)
 {
-  double **field = malloc((size_t)count * sizeof *field);
+  double **field = calloc((size_t)count, sizeof *field);
   for (int i = 0; i < count; i++) field[i] = calloc(length, sizeof **field);
   return field;
 }
