@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What every cmocka test includes: cmocka with its prerequisites, and comparisons of doubles that print all digits. */
+/* What every cmocka test includes: cmocka with its prerequisites, comparisons that say what they saw, random numbers. */
 #ifndef GRIDCROSS_TESTS_CHECK_H
 #define GRIDCROSS_TESTS_CHECK_H
 
@@ -10,20 +10,9 @@
 
 #include <cmocka.h>
 
-#include <math.h>
-#include <stdio.h>
+#include "near.h"
 
-/* cmocka's own comparison of floats casts to float */
-static inline void check_near(double actual, double expected, double tolerance, const char *what, const char *file, int line)
-{
-  if (fabs(actual - expected) <= tolerance) return;
-  print_error("%s is %.17g, not %.17g within %.3g (off by %.3g)\n", what, actual, expected, tolerance, actual - expected);
-  _fail(file, line);
-}
-
-/* |actual - expected| <= tolerance; a NaN fails. */
-#define NEAR(actual, expected, tolerance) check_near(actual, expected, tolerance, #actual, __FILE__, __LINE__)
-/* The same relative to expected. */
+/* As NEAR, relative to expected. */
 #define CLOSE(actual, expected, relative) NEAR(actual, expected, (relative)*fabs(expected))
 
 /* Fails with a message of what was being checked. */

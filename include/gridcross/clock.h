@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Clocks: time integrators as data. A clock is either rows of primitives or a Runge–Kutta tableau; one engine runs each kind
- * on any space. */
+/* Clocks: time integrators as data, run on any space by one engine. A clock is rows of primitives, or a splitting (which is
+ * rows with a regular pattern), or a Runge–Kutta tableau. */
 #ifndef GRIDCROSS_CLOCK_H
 #define GRIDCROSS_CLOCK_H
 
@@ -8,22 +8,20 @@
 
 #include <gridcross/space.h>
 
-enum gx_primitive {
-  GX_END,
-  GX_WEIGHTS,    /* W: weights at the current positions */
-  GX_PROJECT,    /* P: nodal mass and velocity */
-  GX_ACCELERATE, /* A: nodal acceleration */
-  GX_KICK,       /* K: velocities by coefficient * dt */
-  GX_STRAIN,     /* G: F and stress by coefficient * dt */
-  GX_DRIFT       /* X: positions by coefficient * dt */
-};
-
 struct gx_row {
   enum gx_primitive primitive;
   double coefficient;
 };
 
 enum { GX_MAX_STAGES = 16 };
+
+/* Drifts and kicks in turn: drift[0], kick[0], drift[1], ..., kick[stages - 1], drift[stages]. F and stress go with the drifts.
+ * As a Runge–Kutta–Nyström method: b = kick, c_j = drift[0] + ... + drift[j]. */
+struct gx_splitting {
+  int stages;
+  double drift[GX_MAX_STAGES + 1];
+  double kick[GX_MAX_STAGES];
+};
 
 struct gx_tableau {
   int stages;
@@ -39,10 +37,13 @@ struct gx_clock {
   int order;
   int stages; /* acceleration evaluations per step */
   bool symplectic;
-  bool staggered;            /* velocity lives at half steps, starting at -dt/2 */
-  bool first_order_defect;   /* per-step energy defect by berzins2022 E(94), else E(88) */
-  double stability;          /* largest omega dt on x'' = -omega^2 x */
-  const struct gx_row *rows; /* ended by GX_END; NULL: use tableau */
+  bool staggered;          /* velocity lives at half steps, starting at -dt/2 */
+  bool first_order_defect; /* per-step energy defect by berzins2022 E(94), else E(88) */
+  double stability;        /* largest omega dt on x'' = -omega^2 x */
+  /* exactly one of rows, splitting, tableau: */
+  const struct gx_row *rows;       /* ended by GX_END */
+  const struct gx_row *plain_rows; /* with rows: what they become where weights never change; NULL: the same */
+  const struct gx_splitting *splitting;
   const struct gx_tableau *tableau;
 };
 

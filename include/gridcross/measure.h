@@ -39,6 +39,9 @@ void gx_measure_free(struct gx_measure *measure);
 struct gx_work_observer gx_measure_work(struct gx_measure *measure);
 /* Takes the sample at time t: the start, then ends of steps, every one of them unless only the last matters. */
 enum gx_status gx_measure_take(struct gx_measure *measure, struct gx_stepper *stepper, double t, double dt);
+/* Norms of the difference between the last samples of two measures of the same particles. */
+void gx_measure_difference(const struct gx_measure *measure, const struct gx_measure *other,
+                           double error[GX_QUANTITIES][GX_NORMS]);
 /* What was measured so far. */
 const struct gx_measured *gx_measure_result(const struct gx_measure *measure);
 

@@ -19,6 +19,7 @@ enum gx_parameter_id {
   GX_PROBLEM_MODE,
   GX_PROBLEM_ACTIVE,
   GX_PROBLEM_PHASES,
+  GX_PROBLEM_INTERPOLATION_ERROR,
   GX_MESH_CELLS,
   GX_MESH_PARTICLES_PER_CELL,
   GX_MESH_LAYOUT,
@@ -40,6 +41,7 @@ enum gx_parameter_id {
   GX_TIME_ACCUMULATE,
   GX_OUTPUT_MEASURES,
   GX_OUTPUT_HISTORIES,
+  GX_OUTPUT_REFERENCE,
   GX_PARAMETERS
 };
 
@@ -48,7 +50,7 @@ struct gx_parameter {
   enum gx_type type;                             /* GX_INTEGER, GX_REAL or GX_TEXT */
   const char *unit;                              /* "" when none */
   double least, most;                            /* admissible range of numbers, ends included */
-  bool above_least;                              /* least itself is excluded */
+  bool above_least, below_most;                  /* least, most themselves are excluded */
   const char *standard;                          /* default as a run file would write it; NULL: none, or set by resolve */
   const char *(*choice)(int i);                  /* admissible texts, NULL after the last; NULL: free text */
   const char *help;                              /* what it is */
@@ -62,5 +64,17 @@ extern const struct gx_parameter gx_parameters[GX_PARAMETERS];
 
 /* -1: no such path */
 int gx_parameter_find(const char *path);
+
+/* The default that the table gives; null when there is none or it depends on other parameters. */
+struct gx_value gx_parameter_default(enum gx_parameter_id id);
+
+/* Completes a case: fills null values with defaults, then nulls what does not apply. value: [GX_PARAMETERS]; problem.name must be
+ * that of a problem, the others null or within range. */
+void gx_parameter_resolve(struct gx_value *value);
+
+enum { GX_OBJECTION_LENGTH = 256 };
+
+/* Whether value[id] of a resolved case fits the values it depends on; if not, objection says why. */
+bool gx_parameter_fits(enum gx_parameter_id id, const struct gx_value *value, char objection[GX_OBJECTION_LENGTH]);
 
 #endif

@@ -13,8 +13,9 @@ struct gx_problem_options {
   double amplitude; /* A, m */
   double mode;      /* wavenumber m of sin(2 pi m X) */
   struct gx_moduli moduli;
-  bool active[GX_MAX_DIM];  /* directions that move */
-  double phase[GX_MAX_DIM]; /* rad */
+  bool active[GX_MAX_DIM];    /* directions that move */
+  double phase[GX_MAX_DIM];   /* rad */
+  double interpolation_error; /* oscillator: added to v in every drift, m/s */
 };
 
 /* A problem posed at given reference points; tables of sin and cos are made once. */
@@ -33,6 +34,7 @@ struct gx_problem {
   const char *source;
   const struct gx_material *material;
   int max_dim;
+  const char *space;                          /* space that holds its equations; NULL: a continuum, method.space chooses */
   bool has_mode, has_directions, has_poisson; /* which problem.* parameters apply */
   bool periodic;                              /* default boundary */
   double cycles;                              /* one period is cycles/c seconds (c: wave speed, domain length 1) */

@@ -23,6 +23,25 @@ struct gx_space_options {
   bool stress_rate;     /* stress integrated by rate, else P(F) */
 };
 
+/* What clocks are made of. */
+enum gx_primitive {
+  GX_END,
+  GX_WEIGHTS,    /* W: weights at the current positions */
+  GX_PROJECT,    /* P: nodal mass and velocity */
+  GX_ACCELERATE, /* A: nodal acceleration */
+  GX_KICK,       /* K: velocities by coefficient * dt */
+  GX_STRAIN,     /* G: F and stress by coefficient * dt */
+  GX_DRIFT,      /* X: positions by coefficient * dt */
+  /* for clocks that use the weights of two positions in one step */
+  GX_WEIGHTS_FROZEN, /* weights at the current positions, particle domains as they were */
+  GX_STRETCH,        /* weights again if particle domains follow F */
+  GX_MASS,           /* nodal mass; nodal velocity is kept */
+  GX_KICK_NODES,     /* nodal velocities only, by coefficient * dt */
+  GX_STRAIN_BACK,    /* F and stress by coefficient * dt with the gradient at the end: F <- (I - span grad v)^-1 F */
+  GX_OPEN,           /* keeps y = x + span S v */
+  GX_CLOSE           /* x <- y + span S v */
+};
+
 enum { GX_MAX_STATE = 32 };
 
 /* The arrays that a space advances in time; what a Runge–Kutta engine combines. */
@@ -39,6 +58,7 @@ struct gx_space_kind {
   const char *help;
   const char *source;
   bool fixed_grid; /* particles move through the grid: projection each step by default, crossings counted */
+  bool of_problem; /* the equations of one problem, not a choice of method.space */
   /* Builds the space on particles and a posed problem (both borrowed, particles already in their initial state). */
   enum gx_status (*create)(struct gx_space **space, const struct gx_space_options *options, struct gx_particles *particles,
                            const struct gx_posed *posed, struct gx_outcome *outcome);
@@ -49,11 +69,15 @@ struct gx_space_kind {
   enum gx_status (*project)(struct gx_space *space);
   enum gx_status (*accelerate)(struct gx_space *space, double t);
   void (*advance)(struct gx_space *space, double kick, double strain, double drift);
+  /* GX_WEIGHTS_FROZEN ... GX_CLOSE; span: coefficient * dt. */
+  enum gx_status (*twofold)(struct gx_space *space, enum gx_primitive primitive, double span);
   /* Runge–Kutta view: the state, and its time derivatives after W, P, A. rate: [state.count] arrays. */
   void (*state)(struct gx_space *space, struct gx_state *state);
   void (*rates)(struct gx_space *space, double *const *rate);
   /* Kinetic energy of the carrier of velocity: nodes with their row-sum mass, J. */
   double (*kinetic)(const struct gx_space *space);
+  /* Potential energy, J; NULL: strain energy sum V0 W(F). */
+  double (*potential)(const struct gx_space *space);
   /* Brings particles up to date with a state that lives on nodes; NULL: nothing to do. */
   void (*settle)(struct gx_space *space);
   /* Acceleration of the particles after accelerate. a: [dim][n], m/s^2. */

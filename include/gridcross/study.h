@@ -22,8 +22,10 @@ struct gx_study {
   char *source; /* owned: the run file's text */
   struct gx_case *cases;
   size_t count;
-  size_t duplicates; /* cases that resolved equal to an earlier one and were dropped */
-  char **texts;      /* texts that values point to, owned */
+  size_t duplicates;                        /* cases that resolved equal to an earlier one and were dropped */
+  enum gx_parameter_id axis[GX_PARAMETERS]; /* parameters that the file varies and that differ between cases, in file order */
+  size_t axes;
+  char **texts; /* texts that values point to, owned */
   size_t text_count;
 };
 
@@ -39,11 +41,13 @@ struct gx_history {
 
 struct gx_result {
   struct gx_outcome outcome;
-  double dt;    /* s */
-  double steps; /* taken */
-  double time;  /* s, reached */
+  double dt;        /* s */
+  double steps;     /* taken */
+  double time;      /* s, reached */
+  double stable_dt; /* s, estimated at the start; NaN: not estimated (short runs that ended well) */
   struct gx_measured measured;
-  double seconds; /* wall time of the steps, measures excluded */
+  double reference[GX_QUANTITIES][GX_NORMS]; /* final state less that of dt / output.reference; NaN: not asked */
+  double seconds;                            /* processor time of the steps, measures excluded */
   double ns_per_particle_step;
   struct gx_history history;
 };
@@ -62,7 +66,18 @@ struct gx_plan gx_case_plan(const struct gx_case *one);
 struct gx_result gx_case_run(const struct gx_case *one);
 void gx_case_free(struct gx_result *result);
 
-/* Columns case, every parameter, every result; timing columns last and only if asked. results: [count]. */
+/* Told after every case, by one thread at a time. */
+struct gx_progress {
+  void *context;
+  void (*done)(void *context, size_t done, size_t total);
+};
+
+/* Runs every case on that many threads; equal bits for any number. results: [count], filled. progress may be NULL. */
+void gx_study_run(const struct gx_study *study, size_t threads, const struct gx_progress *progress, struct gx_result *results);
+
+/* Columns case, every parameter, every result; timing columns last and only if asked. results: [count]. NULL when memory runs out. */
 struct gx_table *gx_study_table(const struct gx_study *study, const struct gx_result *results, bool timing);
+/* One row a sample: time, displacement.inf, ..., energy.kinetic, ..., crossings. NULL when memory runs out. */
+struct gx_table *gx_study_table_history(const struct gx_result *result);
 
 #endif

@@ -27,6 +27,8 @@ int gx_table_column(struct gx_table *table, size_t column, const char *name, con
 /* Stores a value; copies text. Returns 0, or -1 when memory runs out. */
 int gx_table_set(struct gx_table *table, size_t row, size_t column, struct gx_value value);
 struct gx_value gx_table_get(const struct gx_table *table, size_t row, size_t column);
+/* Copies a column, name and values, from a table with as many rows. Returns 0, or -1 when memory runs out. */
+int gx_table_copy(struct gx_table *table, size_t column, const struct gx_table *from, size_t source);
 /* Index of the column, or -1. */
 long gx_table_find(const struct gx_table *table, const char *name);
 

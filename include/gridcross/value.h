@@ -16,4 +16,11 @@ struct gx_value {
   };
 };
 
+enum { GX_NUMBER_LENGTH = 32 };
+
+/* The shortest of 15 to 17 significant digits that reads back bit for bit. */
+void gx_value_real(double value, char text[GX_NUMBER_LENGTH]);
+/* Order of two values: null, numbers ascending, texts by bytes. 0: equal. */
+int gx_value_compare(struct gx_value a, struct gx_value b);
+
 #endif

@@ -113,8 +113,8 @@ GX_CORE void points(const int degree, const struct gx_axis *axis, size_t n, cons
     points(value, axis, n, x, first, S, D);                                                                                      \
     break;
 
-GX_CLONES static long bspline_points(const struct gx_axis *axis, size_t n, const double *restrict x, const double *half,
-                                     int *restrict first, double *restrict S, double *restrict D)
+GX_CLONES static long evaluate(const struct gx_axis *axis, size_t n, const double *restrict x, const double *half,
+                               int *restrict first, double *restrict S, double *restrict D)
 {
   (void)half;
   switch (axis->degree) {
@@ -137,5 +137,5 @@ const struct gx_basis gx_bspline = {
     .source = "steffen2010 S(30)-S(34); de Boor 1978",
     .has_degree = true,
     .layout = layout,
-    .evaluate = bspline_points,
+    .evaluate = evaluate,
 };

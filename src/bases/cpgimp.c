@@ -4,8 +4,8 @@
 
 #include "gimp.h"
 
-GX_CLONES static long cpgimp_points(const struct gx_axis *axis, size_t n, const double *restrict x, const double *restrict half,
-                                    int *restrict first, double *restrict S, double *restrict D)
+GX_CLONES static long evaluate(const struct gx_axis *axis, size_t n, const double *restrict x, const double *restrict half,
+                               int *restrict first, double *restrict S, double *restrict D)
 {
   const bool periodic = axis->periodic;
   const int cells = axis->cells;
@@ -29,5 +29,5 @@ const struct gx_basis gx_cpgimp = {
     .has_domain = true,
     .deforms = true,
     .layout = gx_gimp_layout,
-    .evaluate = cpgimp_points,
+    .evaluate = evaluate,
 };

@@ -13,8 +13,8 @@ static void layout(struct gx_axis *axis)
   axis->edge = 1;
 }
 
-GX_CLONES static long linear_points(const struct gx_axis *axis, size_t n, const double *restrict x, const double *half,
-                                    int *restrict first, double *restrict S, double *restrict D)
+GX_CLONES static long evaluate(const struct gx_axis *axis, size_t n, const double *restrict x, const double *half,
+                               int *restrict first, double *restrict S, double *restrict D)
 {
   (void)half;
   const bool periodic = axis->periodic;
@@ -37,5 +37,5 @@ const struct gx_basis gx_linear = {
     .help = "piecewise linear hat functions; the gradient jumps at cell edges",
     .source = "steffen2010 S(28), S(29)",
     .layout = layout,
-    .evaluate = linear_points,
+    .evaluate = evaluate,
 };

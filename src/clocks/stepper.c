@@ -7,16 +7,51 @@
 
 #include "../core/vector.h"
 
+enum { MOST_ROWS = 6 * GX_MAX_STAGES + 8 };
+
 struct gx_stepper {
   const struct gx_clock *clock;
   struct gx_space *space;
   struct gx_work_observer observer;
-  bool accelerated;                          /* W, P, A hold for the current state */
+  bool fresh[GX_ACCELERATE + 1];             /* W, P, A hold for the current state and need not be repeated */
+  struct gx_row rows[MOST_ROWS];             /* rows of the clock, or what its splitting means */
   struct gx_state state;                     /* tableau: what is combined */
   double *start[GX_MAX_STATE];               /* state at the start of the step */
   double *rate[GX_MAX_STAGES][GX_MAX_STATE]; /* rates of each stage */
   double *block;
 };
+
+static void append_row(struct gx_row **row, enum gx_primitive primitive, double coefficient)
+{
+  *(*row)++ = (struct gx_row){primitive, coefficient};
+}
+
+/* Weights and nodal velocities are renewed wherever positions have changed. */
+static void append_drift(struct gx_row **row, double coefficient)
+{
+  if (coefficient == 0) return;
+  append_row(row, GX_STRAIN, coefficient);
+  append_row(row, GX_DRIFT, coefficient);
+}
+
+static void append_position(struct gx_row **row)
+{
+  append_row(row, GX_WEIGHTS, 0);
+  append_row(row, GX_PROJECT, 0);
+}
+
+static void expand(const struct gx_splitting *splitting, struct gx_row *row)
+{
+  append_position(&row);
+  append_drift(&row, splitting->drift[0]);
+  for (int j = 0; j < splitting->stages; j++) {
+    if (splitting->drift[j] != 0) append_position(&row);
+    append_row(&row, GX_ACCELERATE, 0);
+    append_row(&row, GX_KICK, splitting->kick[j]);
+    append_drift(&row, splitting->drift[j + 1]);
+  }
+  append_row(&row, GX_END, 0);
+}
 
 static int allocate_stages(struct gx_stepper *stepper)
 {
@@ -41,6 +76,9 @@ struct gx_stepper *gx_stepper_create(const struct gx_clock *clock, struct gx_spa
   if (!stepper) return NULL;
   *stepper = (struct gx_stepper){.clock = clock, .space = space};
   if (observer) stepper->observer = *observer;
+  const struct gx_row *rows = clock->plain_rows && !space->kind->fixed_grid ? clock->plain_rows : clock->rows;
+  for (int i = 0; rows && (i == 0 || rows[i - 1].primitive != GX_END); i++) stepper->rows[i] = rows[i];
+  if (clock->splitting) expand(clock->splitting, stepper->rows);
   if (clock->tableau && allocate_stages(stepper)) {
     free(stepper);
     return NULL;
@@ -55,14 +93,27 @@ void gx_stepper_free(struct gx_stepper *stepper)
   free(stepper);
 }
 
+/* Does W, P or A unless it holds already. */
+static enum gx_status ensure(struct gx_stepper *stepper, enum gx_primitive primitive, double t)
+{
+  struct gx_space *space = stepper->space;
+  const struct gx_space_kind *kind = space->kind;
+  if (stepper->fresh[primitive]) return GX_OK;
+  if (primitive == GX_WEIGHTS) GX_TRY(kind->weights(space));
+  if (primitive == GX_PROJECT) GX_TRY(kind->project(space));
+  if (primitive == GX_ACCELERATE) GX_TRY(kind->accelerate(space, t));
+  stepper->fresh[primitive] = true;
+  return GX_OK;
+}
+
+static void expire(struct gx_stepper *stepper, enum gx_primitive first, enum gx_primitive last)
+{
+  for (enum gx_primitive p = first; p <= last; p++) stepper->fresh[p] = false;
+}
+
 enum gx_status gx_stepper_accelerate(struct gx_stepper *stepper, double t)
 {
-  if (stepper->accelerated) return GX_OK;
-  struct gx_space *space = stepper->space;
-  GX_TRY(space->kind->weights(space));
-  GX_TRY(space->kind->project(space));
-  GX_TRY(space->kind->accelerate(space, t));
-  stepper->accelerated = true;
+  for (enum gx_primitive p = GX_WEIGHTS; p <= GX_ACCELERATE; p++) GX_TRY(ensure(stepper, p, t));
   return GX_OK;
 }
 
@@ -76,13 +127,15 @@ static const struct gx_row *advance(struct gx_stepper *stepper, const struct gx_
 {
   double span[GX_DRIFT + 1] = {0};
   enum gx_primitive last = GX_ACCELERATE;
-  for (; row->primitive > last; row++) {
+  for (; row->primitive > last && row->primitive <= GX_DRIFT; row++) {
     span[row->primitive] = row->coefficient * dt;
     last = row->primitive;
   }
   observe(stepper, 0.5 * span[GX_KICK]);
   stepper->space->kind->advance(stepper->space, span[GX_KICK], span[GX_STRAIN], span[GX_DRIFT]);
   observe(stepper, 0.5 * span[GX_KICK]);
+  if (span[GX_KICK] != 0) expire(stepper, GX_PROJECT, GX_PROJECT);
+  if (span[GX_STRAIN] != 0 || span[GX_DRIFT] != 0) expire(stepper, GX_WEIGHTS, GX_ACCELERATE);
   *drifted += span[GX_DRIFT];
   return row;
 }
@@ -90,27 +143,16 @@ static const struct gx_row *advance(struct gx_stepper *stepper, const struct gx_
 static enum gx_status step_rows(struct gx_stepper *stepper, double t, double dt)
 {
   struct gx_space *space = stepper->space;
-  const struct gx_row *row = stepper->clock->rows;
   double drifted = 0;
-  if (stepper->accelerated) /* leading W, P, A were done when the last step was observed */
-    for (enum gx_primitive done = GX_WEIGHTS; done <= GX_ACCELERATE && row->primitive == done; done++) row++;
-  stepper->accelerated = false;
-  while (row->primitive != GX_END) {
-    switch (row->primitive) {
-    case GX_WEIGHTS:
-      GX_TRY(space->kind->weights(space));
-      row++;
-      break;
-    case GX_PROJECT:
-      GX_TRY(space->kind->project(space));
-      row++;
-      break;
-    case GX_ACCELERATE:
-      GX_TRY(space->kind->accelerate(space, t + drifted));
-      row++;
-      break;
-    default:
+  for (const struct gx_row *row = stepper->rows; row->primitive != GX_END;) {
+    if (row->primitive <= GX_ACCELERATE) {
+      GX_TRY(ensure(stepper, (row++)->primitive, t + drifted));
+    } else if (row->primitive <= GX_DRIFT) {
       row = advance(stepper, row, dt, &drifted);
+    } else {
+      GX_TRY(space->kind->twofold(space, row->primitive, row->coefficient * dt));
+      if (row->primitive == GX_CLOSE) expire(stepper, GX_WEIGHTS, GX_ACCELERATE);
+      row++;
     }
   }
   return GX_OK;
@@ -125,6 +167,7 @@ static void set_state(struct gx_stepper *stepper, int stages, const double *weig
     for (int s = 0; s < stages; s++)
       if (weight[s] != 0) gx_vector_add(state->length[i], dt * weight[s], stepper->rate[s][i], state->array[i]);
   }
+  expire(stepper, GX_WEIGHTS, GX_ACCELERATE);
 }
 
 static enum gx_status step_tableau(struct gx_stepper *stepper, double t, double dt)
@@ -134,20 +177,16 @@ static enum gx_status step_tableau(struct gx_stepper *stepper, double t, double 
   for (int i = 0; i < stepper->state.count; i++)
     memcpy(stepper->start[i], stepper->state.array[i], stepper->state.length[i] * sizeof(double));
   for (int s = 0; s < tableau->stages; s++) {
-    if (s) {
-      set_state(stepper, s, tableau->a[s], dt);
-      stepper->accelerated = false;
-    }
+    if (s) set_state(stepper, s, tableau->a[s], dt);
     GX_TRY(gx_stepper_accelerate(stepper, t + tableau->c[s] * dt));
     observe(stepper, tableau->b[s] * dt);
     space->kind->rates(space, stepper->rate[s]);
   }
   set_state(stepper, tableau->stages, tableau->b, dt);
-  stepper->accelerated = false;
   return GX_OK;
 }
 
 enum gx_status gx_stepper_step(struct gx_stepper *stepper, double t, double dt)
 {
-  return stepper->clock->rows ? step_rows(stepper, t, dt) : step_tableau(stepper, t, dt);
+  return stepper->clock->tableau ? step_tableau(stepper, t, dt) : step_rows(stepper, t, dt);
 }

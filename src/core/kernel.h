@@ -3,8 +3,7 @@
 #ifndef GRIDCROSS_CORE_KERNEL_H
 #define GRIDCROSS_CORE_KERNEL_H
 
-/* An elementwise kernel compiled for several instruction sets; equal bits, since nothing contracts to FMA. Static, with a
- * name that is unique in the library: clang exports <name>.resolver, and only <name>.ifunc where others look for <name>. */
+/* An elementwise kernel compiled for several instruction sets; equal bits, since nothing contracts to FMA. */
 #if GX_HAVE_CLONES
 #define GX_CLONES __attribute__((target_clones("avx2", "default")))
 #else

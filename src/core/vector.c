@@ -4,12 +4,7 @@
 
 #include "kernel.h"
 
-GX_CLONES static void vector_add(size_t n, double scale, const double *restrict rate, double *restrict value)
+GX_CLONES void gx_vector_add(size_t n, double scale, const double *restrict rate, double *restrict value)
 {
   for (size_t i = 0; i < n; i++) value[i] += scale * rate[i];
-}
-
-void gx_vector_add(size_t n, double scale, const double *rate, double *value)
-{
-  vector_add(n, scale, rate, value);
 }

@@ -57,6 +57,12 @@ struct gx_measure *gx_measure_create(struct gx_space *space, const struct gx_clo
     free(measure);
     return NULL;
   }
+  struct gx_measured *result = &measure->result;
+  if (level == GX_MEASURE_FINAL)
+    for (int q = 0; q < GX_QUANTITIES; q++)
+      for (int k = 0; k < GX_NORMS; k++) result->max_error[q][k] = NAN;
+  if (level != GX_MEASURE_ALL) result->max_defect = result->drift = NAN;
+  result->last.crossings = level == GX_MEASURE_FINAL ? NAN : 0;
   double *at = measure->block;
   struct vector_field *vectors[] = {&measure->v,       &measure->a,       &measure->v_before, &measure->a_before,
                                     &measure->exact_u, &measure->exact_v, &measure->cell};
@@ -136,13 +142,32 @@ static void errors(struct gx_measure *measure, double t, double error[GX_QUANTIT
   norms(measure, dim * dim, measure->stress.component, measure->exact_stress.component, error[GX_STRESS]);
 }
 
+void gx_measure_difference(const struct gx_measure *measure, const struct gx_measure *other,
+                           double error[GX_QUANTITIES][GX_NORMS])
+{
+  int dim = measure->dim;
+  norms(measure, dim, measure->space->particles->u, other->space->particles->u, error[GX_DISPLACEMENT]);
+  norms(measure, dim, measure->v.component, other->v.component, error[GX_VELOCITY]);
+  norms(measure, dim * dim, measure->stress.component, other->stress.component, error[GX_STRESS]);
+}
+
+static double potential(struct gx_measure *measure)
+{
+  const struct gx_space *space = measure->space;
+  const struct gx_particles *particles = space->particles;
+  const struct gx_posed *posed = space->posed;
+  if (space->kind->potential) return space->kind->potential(space);
+  double elastic = 0;
+  posed->problem->material->energy(&posed->options.moduli, measure->dim, measure->n, particles->F, measure->energy);
+  for (size_t p = 0; p < measure->n; p++) elastic += particles->V0[p] * measure->energy[p];
+  return elastic;
+}
+
 static void energies(struct gx_measure *measure, double dt, struct gx_sample *sample)
 {
   const struct gx_particles *particles = measure->space->particles;
   const struct gx_posed *posed = measure->space->posed;
-  posed->problem->material->energy(&posed->options.moduli, measure->dim, measure->n, particles->F, measure->energy);
-  double kinetic = 0, elastic = 0, defect = 0;
-  for (size_t p = 0; p < measure->n; p++) elastic += particles->V0[p] * measure->energy[p];
+  double kinetic = 0, defect = 0;
   for (int d = 0; d < measure->dim; d++) {
     const double *v = measure->v.component[d], *v0 = measure->v_before.component[d];
     const double *a = measure->a.component[d], *a0 = measure->a_before.component[d];
@@ -153,7 +178,7 @@ static void energies(struct gx_measure *measure, double dt, struct gx_sample *sa
     }
   }
   sample->kinetic = kinetic;
-  sample->elastic = elastic;
+  sample->elastic = potential(measure);
   sample->kinetic_nodes = measure->space->kind->kinetic(measure->space);
   sample->defect = measure->started ? fabs(dt * defect) : NAN;
   sample->work = measure->work;
@@ -194,7 +219,7 @@ GX_CLONES static double moved_cell(size_t n, const double *restrict X, const dou
 static double crossings(struct gx_measure *measure)
 {
   const struct gx_particles *particles = measure->space->particles;
-  if (!measure->cells) return 0;
+  if (!measure->cells || measure->level == GX_MEASURE_FINAL) return measure->result.last.crossings;
   double moved = 0;
   for (int d = 0; d < measure->dim; d++)
     moved += moved_cell(measure->n, particles->X[d], particles->u[d], measure->cells[d], measure->cell.component[d]);
@@ -204,7 +229,8 @@ static double crossings(struct gx_measure *measure)
 static void keep_extremes(struct gx_measure *measure, const struct gx_sample *sample)
 {
   struct gx_measured *result = &measure->result;
-  for (int q = 0; q < GX_QUANTITIES && measure->started; q++)
+  bool end_of_step = measure->started && measure->level != GX_MEASURE_FINAL;
+  for (int q = 0; q < GX_QUANTITIES && end_of_step; q++)
     for (int k = 0; k < GX_NORMS; k++) result->max_error[q][k] = fmax(result->max_error[q][k], sample->error[q][k]);
   if (measure->level != GX_MEASURE_ALL) return;
   double balance = sample->kinetic + sample->elastic - sample->work;

@@ -47,6 +47,8 @@ static size_t place_arrays(struct gx_mesh *mesh, double *block)
   PLACE(mesh->x, dim, n);
   PLACE(mesh->half, dim, n);
   PLACE(mesh->T, dim * dim, n);
+  PLACE(mesh->opened, dim, n);
+  PLACE(mesh->opened_nodes, dim, nodes);
   PLACE(mesh->gathered_a, dim, n);
   PLACE(mesh->gathered_v, dim, n);
   PLACE(mesh->gradient, dim * dim, n);
@@ -121,7 +123,17 @@ static enum gx_status report_outside(struct gx_mesh *mesh, int d, double limit)
   return gx_status_set(mesh->space.outcome, GX_LEFT_DOMAIN, (long)p, "a particle is at %.6g, outside the domain [0, 1]", x[p]);
 }
 
-enum gx_status gx_mesh_weigh(struct gx_mesh *mesh, double *const *u, double *const *F)
+/* Half lengths of particle domains along d for a basis that needs them: stretched by F, as they were, or at reference. */
+static const double *domains(struct gx_mesh *mesh, int d, double *const *F, bool frozen)
+{
+  const struct gx_particles *particles = mesh->space.particles;
+  if (!mesh->options.basis->deforms || !(F || frozen)) return particles->half_length[d];
+  if (!frozen)
+    for (size_t p = 0; p < particles->n; p++) mesh->half[d][p] = F[d * mesh->grid.dim + d][p] * particles->half_length[d][p];
+  return mesh->half[d];
+}
+
+static enum gx_status weigh(struct gx_mesh *mesh, double *const *u, double *const *F, bool frozen)
 {
   const struct gx_particles *particles = mesh->space.particles;
   const struct gx_basis *basis = mesh->options.basis;
@@ -129,15 +141,10 @@ enum gx_status gx_mesh_weigh(struct gx_mesh *mesh, double *const *u, double *con
   size_t n = particles->n;
   for (int d = 0; d < mesh->grid.dim; d++) {
     const struct gx_axis *axis = &mesh->grid.axis[d];
-    const double *x = particles->X[d], *half = particles->half_length[d];
+    const double *x = particles->X[d], *half = domains(mesh, d, F, frozen);
     if (u) {
       if (!move(n, x, u[d], axis->periodic ? -far : 0, axis->periodic ? far : 1, mesh->x[d])) return report_outside(mesh, d, far);
       x = mesh->x[d];
-    }
-    if (F && basis->deforms) {
-      const double *stretch = F[d * mesh->grid.dim + d];
-      for (size_t p = 0; p < n; p++) mesh->half[d][p] = stretch[p] * half[p];
-      half = mesh->half[d];
     }
     long wide = basis->evaluate(axis, n, x, half, mesh->weights.first[d], mesh->weights.S[d], mesh->weights.D[d]);
     if (wide >= 0)
@@ -145,6 +152,16 @@ enum gx_status gx_mesh_weigh(struct gx_mesh *mesh, double *const *u, double *con
                            2 * half[wide] * axis->cells, basis->name);
   }
   return GX_OK;
+}
+
+enum gx_status gx_mesh_weigh(struct gx_mesh *mesh, double *const *u, double *const *F)
+{
+  return weigh(mesh, u, F, false);
+}
+
+enum gx_status gx_mesh_weigh_frozen(struct gx_mesh *mesh, double *const *u)
+{
+  return weigh(mesh, u, NULL, true);
 }
 
 static void zero(const struct gx_mesh *mesh, double *field)

@@ -21,7 +21,9 @@ struct gx_mesh {
   double *u[GX_MAX_DIM]; /* m; moving mesh only */
   /* scratch, [n] */
   double *x[GX_MAX_DIM], *half[GX_MAX_DIM];
-  double *T[GX_MAX_TENSOR]; /* what the force scatters */
+  double *T[GX_MAX_TENSOR];         /* what the force scatters */
+  double *opened[GX_MAX_DIM];       /* y of GX_OPEN, at particles */
+  double *opened_nodes[GX_MAX_DIM]; /* the same at nodes, [grid.stored] */
   double *gathered_a[GX_MAX_DIM], *gathered_v[GX_MAX_DIM];
   double *gradient[GX_MAX_TENSOR], *rate_P[GX_MAX_TENSOR]; /* of velocity; of P */
   void *block;
@@ -36,6 +38,8 @@ void gx_mesh_free(struct gx_space *space);
 
 /* Weights at X + u (u NULL: at X), particle domains stretched by F when the basis follows it. */
 enum gx_status gx_mesh_weigh(struct gx_mesh *mesh, double *const *u, double *const *F);
+/* The same with particle domains as they were. */
+enum gx_status gx_mesh_weigh_frozen(struct gx_mesh *mesh, double *const *u);
 /* Nodal mass of the current weights and, when value is not NULL, in the same pass field = M^-1 sum_p m_p value_p S_ip. */
 enum gx_status gx_mesh_assemble(struct gx_mesh *mesh, double *const *value, double *const *field);
 /* field = M^-1 sum_p m_p value_p S_ip with the mass assembled last. */

@@ -82,7 +82,15 @@ static void rate_of_stress(struct gx_mesh *mesh, double *const *rate_P)
                                        rate_P);
 }
 
-static void advance(struct gx_space *space, double kick, double strain, double drift)
+static void strain(struct gx_mesh *mesh, double span)
+{
+  struct gx_particles *particles = mesh->space.particles;
+  if (!mesh->options.stress_rate) return; /* F comes from u_i */
+  rate_of_stress(mesh, mesh->rate_P);
+  for (int k = 0; k < particles->dim * particles->dim; k++) gx_vector_add(particles->n, span, mesh->rate_P[k], particles->P[k]);
+}
+
+static void advance(struct gx_space *space, double kick, double strained, double drift)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
   struct gx_particles *particles = space->particles;
@@ -91,10 +99,7 @@ static void advance(struct gx_space *space, double kick, double strain, double d
   bool carry = mesh->options.each_step;
   double flip = mesh->options.pic ? 0 : mesh->options.flip;
   for (int d = 0; d < dim && kick != 0; d++) gx_vector_add(nodes, kick, mesh->a[d], mesh->v[d]);
-  if (strain != 0 && mesh->options.stress_rate) {
-    rate_of_stress(mesh, mesh->rate_P);
-    for (int k = 0; k < dim * dim; k++) gx_vector_add(n, strain, mesh->rate_P[k], particles->P[k]);
-  }
+  if (strained != 0) strain(mesh, strained);
   if (carry) {
     gx_transfer_gather(&mesh->weights, mesh->a, mesh->gathered_a);
     gx_transfer_gather(&mesh->weights, mesh->v, mesh->gathered_v);
@@ -108,6 +113,28 @@ static void advance(struct gx_space *space, double kick, double strain, double d
     gx_vector_add(nodes, drift, mesh->v[d], mesh->u[d]);
     if (carry) gx_vector_add(n, drift, mesh->options.particle_motion ? particles->v[d] : mesh->gathered_v[d], particles->u[d]);
   }
+}
+
+/* Weights and mass never change, so that most of these have nothing to do. */
+static enum gx_status twofold(struct gx_space *space, enum gx_primitive primitive, double span)
+{
+  struct gx_mesh *mesh = (struct gx_mesh *)space;
+  struct gx_particles *particles = space->particles;
+  bool open = primitive == GX_OPEN;
+  if (primitive == GX_STRAIN_BACK) strain(mesh, span);
+  for (int d = 0; d < particles->dim && primitive == GX_KICK_NODES; d++)
+    gx_vector_add(mesh->grid.stored, span, mesh->a[d], mesh->v[d]);
+  if (!open && primitive != GX_CLOSE) return GX_OK;
+  gx_transfer_gather(&mesh->weights, mesh->v, mesh->gathered_v);
+  for (int d = 0; d < particles->dim; d++) {
+    double *y = mesh->opened_nodes[d], *u = mesh->u[d];
+    for (size_t i = 0; i < mesh->grid.stored; i++) *(open ? &y[i] : &u[i]) = (open ? u[i] : y[i]) + span * mesh->v[d][i];
+    if (!mesh->options.each_step) continue;
+    double *y_p = mesh->opened[d], *u_p = particles->u[d];
+    for (size_t p = 0; p < particles->n; p++)
+      *(open ? &y_p[p] : &u_p[p]) = (open ? u_p[p] : y_p[p]) + span * mesh->gathered_v[d][p];
+  }
+  return GX_OK;
 }
 
 static void settle(struct gx_space *space)
@@ -166,6 +193,7 @@ const struct gx_space_kind gx_moving_mesh = {
     .project = project,
     .accelerate = accelerate,
     .advance = advance,
+    .twofold = twofold,
     .state = state,
     .rates = rates,
     .kinetic = gx_mesh_kinetic,

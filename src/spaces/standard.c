@@ -136,6 +136,66 @@ static void advance(struct gx_space *space, double kick, double strain, double d
       gx_vector_add(n, drift, mesh->options.particle_motion ? particles->v[d] : mesh->gathered_v[d], particles->u[d]);
 }
 
+/* F <- (I - span L)^-1 F with L the velocity gradient. */
+GX_CORE void stretch_back_points(const int dim, size_t n, double span, double *const *L, double *const *F)
+{
+  for (size_t p = 0; p < n; p++) {
+    double a[GX_MAX_TENSOR], c[GX_MAX_TENSOR], f[GX_MAX_TENSOR], out[GX_MAX_TENSOR];
+    gx_tensor_load(dim, F, p, f);
+    for (int i = 0; i < dim; i++)
+      for (int j = 0; j < dim; j++) a[i * dim + j] = (i == j) - span * L[i * dim + j][p];
+    double J = gx_tensor_cofactor(dim, a, c);
+    for (int i = 0; i < dim; i++)
+      for (int j = 0; j < dim; j++) {
+        double sum = 0;
+        for (int k = 0; k < dim; k++) sum += c[k * dim + i] * f[k * dim + j];
+        out[i * dim + j] = sum / J;
+      }
+    gx_tensor_store(dim, F, p, out);
+  }
+}
+
+static void strain_back(struct gx_mesh *mesh, double span)
+{
+  struct gx_particles *particles = mesh->space.particles;
+  int dimension = particles->dim;
+  size_t n = particles->n;
+  gx_transfer_gather_gradient(&mesh->weights, mesh->v, mesh->gradient);
+  GX_FOR_DIM(dimension, stretch_back_points(dim, n, span, mesh->gradient, particles->F))
+  if (!mesh->options.stress_rate) return;
+  stretch(dimension, n, mesh->gradient, particles->F, mesh->gradient);
+  rate_of_stress(&mesh->space, mesh->gradient, mesh->rate_P);
+  for (int k = 0; k < dimension * dimension; k++) gx_vector_add(n, span, mesh->rate_P[k], particles->P[k]);
+}
+
+static enum gx_status twofold(struct gx_space *space, enum gx_primitive primitive, double span)
+{
+  struct gx_mesh *mesh = (struct gx_mesh *)space;
+  struct gx_particles *particles = space->particles;
+  switch (primitive) {
+  case GX_WEIGHTS_FROZEN:
+    return gx_mesh_weigh_frozen(mesh, particles->u);
+  case GX_STRETCH:
+    return mesh->options.basis->deforms ? weights(space) : GX_OK;
+  case GX_MASS:
+    return gx_mesh_assemble(mesh, NULL, NULL);
+  case GX_KICK_NODES:
+    for (int d = 0; d < particles->dim; d++) gx_vector_add(mesh->grid.stored, span, mesh->a[d], mesh->v[d]);
+    return GX_OK;
+  case GX_STRAIN_BACK:
+    strain_back(mesh, span);
+    return GX_OK;
+  default: /* GX_OPEN, GX_CLOSE */
+    gx_transfer_gather(&mesh->weights, mesh->v, mesh->gathered_v);
+    for (int d = 0; d < particles->dim; d++) {
+      double *from = primitive == GX_OPEN ? particles->u[d] : mesh->opened[d];
+      double *to = primitive == GX_OPEN ? mesh->opened[d] : particles->u[d];
+      for (size_t p = 0; p < particles->n; p++) to[p] = from[p] + span * mesh->gathered_v[d][p];
+    }
+    return GX_OK;
+  }
+}
+
 static void state(struct gx_space *space, struct gx_state *list)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
@@ -183,6 +243,7 @@ const struct gx_space_kind gx_standard = {
     .project = project,
     .accelerate = accelerate,
     .advance = advance,
+    .twofold = twofold,
     .state = state,
     .rates = rates,
     .kinetic = gx_mesh_kinetic,

@@ -23,10 +23,11 @@ struct run {
   double measuring;       /* s of wall time */
 };
 
+/* Of this thread's own work: other cases and other programs do not count. */
 static double seconds_now(void)
 {
   struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
@@ -36,11 +37,14 @@ static enum gx_measure_level level_of(const struct gx_case *one)
   return !strcmp(level, "final") ? GX_MEASURE_FINAL : !strcmp(level, "max") ? GX_MEASURE_MAX : GX_MEASURE_ALL;
 }
 
-static enum gx_status prepare(struct run *run, const struct gx_case *one)
+/* refine: divides the time step. */
+static enum gx_status prepare(struct run *run, const struct gx_case *one, double refine)
 {
   struct gx_simulation *simulation = &run->simulation;
   struct gx_outcome *outcome = &run->result->outcome;
   GX_TRY(gx_simulation_plan(simulation, one, outcome));
+  simulation->dt /= refine;
+  simulation->steps *= refine;
   run->result->dt = simulation->dt;
   GX_TRY(gx_simulation_build(simulation, outcome));
   run->level = level_of(one);
@@ -112,20 +116,61 @@ static enum gx_status march(struct run *run)
   return GX_OK;
 }
 
+static void finish(struct run *run)
+{
+  gx_stepper_free(run->stepper);
+  gx_measure_free(run->measure);
+  gx_simulation_free(&run->simulation);
+}
+
+static double stable_dt(const struct gx_simulation *simulation)
+{
+  return simulation->clock->stability / gx_stability_frequency(simulation->space);
+}
+
+/* The largest stable step, estimated on a fresh copy of the case. */
+static double estimate_stable_dt(const struct gx_case *one)
+{
+  struct gx_simulation simulation;
+  struct gx_outcome outcome;
+  bool built = gx_simulation_plan(&simulation, one, &outcome) == GX_OK && gx_simulation_build(&simulation, &outcome) == GX_OK;
+  double dt = built ? stable_dt(&simulation) : NAN;
+  gx_simulation_free(&simulation);
+  return dt;
+}
+
+/* The same case with a finer step, up to the same end; result->reference is the difference of the final states. */
+static void compare_with_reference(const struct run *run, const struct gx_case *one, double refine)
+{
+  struct gx_case final_only = *one;
+  final_only.value[GX_OUTPUT_MEASURES].text = "final";
+  final_only.value[GX_OUTPUT_HISTORIES].integer = 0;
+  struct gx_result result = {.outcome = {.status = GX_OK, .particle = -1}};
+  struct run fine = {.result = &result};
+  if (prepare(&fine, &final_only, refine) == GX_OK && march(&fine) == GX_OK)
+    gx_measure_difference(run->measure, fine.measure, run->result->reference);
+  finish(&fine);
+}
+
+enum { WORTH_ESTIMATING = 100 }; /* steps; fewer cost less than the estimate */
+
 struct gx_result gx_case_run(const struct gx_case *one)
 {
-  struct gx_result result = {.outcome = {.status = GX_OK, .particle = -1}, .dt = NAN, .ns_per_particle_step = NAN};
+  struct gx_result result = {
+      .outcome = {.status = GX_OK, .particle = -1}, .dt = NAN, .stable_dt = NAN, .ns_per_particle_step = NAN};
+  for (int q = 0; q < GX_QUANTITIES; q++)
+    for (int k = 0; k < GX_NORMS; k++) result.reference[q][k] = NAN;
   struct run run = {.result = &result};
-  if (prepare(&run, one) == GX_OK) {
-    double before = seconds_now();
-    march(&run);
-    result.measured = *gx_measure_result(run.measure);
+  if (prepare(&run, one, 1) == GX_OK) {
+    double before = seconds_now(), refine = (double)one->value[GX_OUTPUT_REFERENCE].integer;
+    bool done = march(&run) == GX_OK;
     result.seconds = seconds_now() - before - run.measuring;
+    result.measured = *gx_measure_result(run.measure);
+    if (done && refine > 0) compare_with_reference(&run, one, refine);
+    if (!done || run.simulation.steps >= WORTH_ESTIMATING) result.stable_dt = estimate_stable_dt(one);
   }
   if (result.steps > 0) result.ns_per_particle_step = 1e9 * result.seconds / (result.steps * (double)run.simulation.particles->n);
-  gx_stepper_free(run.stepper);
-  gx_measure_free(run.measure);
-  gx_simulation_free(&run.simulation);
+  finish(&run);
   return result;
 }
 
@@ -141,7 +186,7 @@ struct gx_plan gx_case_plan(const struct gx_case *one)
   struct gx_simulation simulation;
   if (gx_simulation_plan(&simulation, one, &plan.outcome) == GX_OK && gx_simulation_build(&simulation, &plan.outcome) == GX_OK) {
     plan.particles = (double)simulation.particles->n;
-    plan.stable_dt = simulation.clock->stability / gx_stability_frequency(simulation.space);
+    plan.stable_dt = stable_dt(&simulation);
   }
   plan.dt = simulation.dt;
   plan.end = simulation.end;

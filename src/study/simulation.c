@@ -30,6 +30,7 @@ static void read_problem(struct gx_simulation *simulation, const struct gx_case 
   options->mode = (double)integer(one, GX_PROBLEM_MODE, 1);
   options->moduli =
       gx_material_moduli(real(one, GX_PROBLEM_MODULUS, 0), real(one, GX_PROBLEM_POISSON, 0), real(one, GX_PROBLEM_DENSITY, 1));
+  options->interpolation_error = real(one, GX_PROBLEM_INTERPOLATION_ERROR, 0);
   const struct gx_value *active = &one->value[GX_PROBLEM_ACTIVE], *phases = &one->value[GX_PROBLEM_PHASES];
   const char *phase = phases->type == GX_TEXT ? phases->text : "";
   for (int d = 0; d < options->dim; d++) {
@@ -43,13 +44,14 @@ static void read_problem(struct gx_simulation *simulation, const struct gx_case 
 static void read_method(struct gx_simulation *simulation, const struct gx_case *one)
 {
   struct gx_space_options *options = &simulation->space_options;
-  simulation->kind = gx_space_find(one->value[GX_METHOD_SPACE].text);
+  const char *own = simulation->problem->space;
+  simulation->kind = gx_space_find(own ? own : one->value[GX_METHOD_SPACE].text);
   simulation->clock = gx_clock_find(one->value[GX_METHOD_CLOCK].text);
   simulation->layout = is(one, GX_MESH_LAYOUT, "gauss") ? GX_LAYOUT_GAUSS : GX_LAYOUT_UNIFORM;
   simulation->per_cell = (int)integer(one, GX_MESH_PARTICLES_PER_CELL, 1);
   for (int d = 0; d < GX_MAX_DIM; d++) options->cells[d] = (int)integer(one, GX_MESH_CELLS, 1);
   options->periodic = is(one, GX_PROBLEM_BOUNDARY, "periodic");
-  options->basis = gx_basis_find(one->value[GX_METHOD_BASIS].text);
+  options->basis = own ? NULL : gx_basis_find(one->value[GX_METHOD_BASIS].text);
   options->degree = (int)integer(one, GX_METHOD_DEGREE, 1);
   options->consistent = is(one, GX_METHOD_MASS, "consistent");
   options->pic = is(one, GX_METHOD_TRANSFER, "pic");
@@ -64,6 +66,7 @@ static enum gx_status refuse(const struct gx_simulation *simulation, struct gx_o
   const struct gx_problem_options *problem = &simulation->problem_options;
   const struct gx_space_options *options = &simulation->space_options;
   double slope = 2 * M_PI * problem->mode * fabs(problem->amplitude);
+  if (simulation->problem->space) return GX_OK;
   if (slope >= 1)
     return gx_status_set(outcome, GX_REFUSED, -1,
                          "the exact solution itself tangles: its least F is %.4g; amplitude must stay below %.6g", 1 - slope,

@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ITERATIONS = 60 };
+enum { LEAST_ITERATIONS = 10, MOST_ITERATIONS = 100 };
+static const double settled = 1e-3; /* relative change that ends the iteration */
 
 struct iteration {
   struct gx_space *space;
@@ -59,12 +60,13 @@ static double iterate(struct iteration *it)
     seed = seed * 6364136223846793005u + 1442695040888963407u;
     it->vector[i] = (double)(seed >> 11) * 0x1p-53 - 0.5;
   }
-  double omega = NAN;
-  for (int k = 0; k < ITERATIONS; k++) {
+  double omega = NAN, previous = 0;
+  for (int k = 0; k < MOST_ITERATIONS && !(k >= LEAST_ITERATIONS && fabs(omega - previous) < settled * omega); k++) {
     double before = norm(it->vector, it->total);
     if (apply(it) || apply(it)) return NAN;
     double after = norm(it->vector, it->total);
     if (!(after > 0 && isfinite(after))) return NAN;
+    previous = omega;
     omega = sqrt(after / before);
     for (size_t i = 0; i < it->total; i++) it->vector[i] /= after;
   }

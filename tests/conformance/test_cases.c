@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Whole cases: every space with every clock ends well, measures do not change what they measure, a wave along one axis of 2-D
+/* Whole cases: every space and the equations of every problem with every clock end well, measures do not change what they measure, a wave along one axis of 2-D
  * and 3-D is the 1-D wave, and a repeated run gives the same bits. */
 #include <gsl/gsl_errno.h>
 
@@ -25,16 +25,15 @@ static void every_method_ends_well(void **state)
       for (int b = 0; gx_basis_family[b]; b++)
         for (int consistent = 0; consistent < 2; consistent++)
           for (int p = 0; gx_problem_family[p]; p++) {
+            if (gx_space_family[s]->of_problem || gx_problem_family[p]->space) continue;
             if (gx_basis_family[b]->deforms && !gx_space_family[s]->fixed_grid) continue;
-            struct gx_case one = case_of("mesh.cells=16", "time.cfl=0.2", "problem.modulus=100");
+            struct gx_case one = case_draft("mesh.cells=16", "time.cfl=0.2", "problem.modulus=100");
             case_set(&one, GX_PROBLEM_NAME, gx_problem_family[p]->name);
-            case_set(&one, GX_PROBLEM_BOUNDARY, "");
-            case_set(&one, GX_METHOD_PROJECTION, "");
             case_set(&one, GX_METHOD_SPACE, gx_space_family[s]->name);
             case_set(&one, GX_METHOD_CLOCK, gx_clock_family[k]->name);
             case_set(&one, GX_METHOD_BASIS, gx_basis_family[b]->name);
             case_set(&one, GX_METHOD_MASS, consistent ? "consistent" : "lumped");
-            case_resolve(&one);
+            gx_parameter_resolve(one.value);
             struct gx_result result = gx_case_run(&one);
             char what[160];
             snprintf(what, sizeof what, "%s %s %s %s mass %d", gx_problem_family[p]->name, gx_space_family[s]->name,
@@ -52,11 +51,11 @@ static void each_method(void (*check)(struct gx_case one))
 {
   for (int s = 0; gx_space_family[s]; s++)
     for (int k = 0; gx_clock_family[k]; k++) {
-      struct gx_case one = case_of("mesh.cells=16", "method.degree=3", "time.periods=0.5");
+      if (gx_space_family[s]->of_problem) continue;
+      struct gx_case one = case_draft("mesh.cells=16", "method.degree=3", "time.periods=0.5");
       case_set(&one, GX_METHOD_SPACE, gx_space_family[s]->name);
       case_set(&one, GX_METHOD_CLOCK, gx_clock_family[k]->name);
-      case_set(&one, GX_METHOD_PROJECTION, "");
-      case_resolve(&one);
+      gx_parameter_resolve(one.value);
       check(one);
     }
 }

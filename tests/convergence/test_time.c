@@ -5,22 +5,28 @@
 
 #include "rig.h"
 
-static struct gx_case smooth_bar(const struct gx_clock *clock)
+static struct gx_case smooth_bar(const struct gx_clock *clock, double steps)
 {
-  struct gx_case one = case_of("method.space=moving-mesh", "method.degree=5", "method.mass=consistent", "mesh.cells=8",
-                               "problem.modulus=1", "time.end=0.6");
+  struct gx_case one = case_draft("method.space=moving-mesh", "method.degree=5", "method.mass=consistent", "mesh.cells=8",
+                                  "problem.modulus=1", "time.end=0.6");
   case_set(&one, GX_METHOD_CLOCK, clock->name);
+  case_set_real(&one, GX_TIME_DT, 0.6 / steps);
+  gx_parameter_resolve(one.value);
   return one;
+}
+
+/* Enough for the order to show, and not so many that round-off does. */
+static double steps_for(const struct gx_clock *clock)
+{
+  return clock->order > 4 ? 20 : clock->order > 1 ? 100 : 400;
 }
 
 enum { NODES = 64 };
 
 static size_t run_bar(const struct gx_clock *clock, double steps, double *u)
 {
-  struct gx_case one = smooth_bar(clock);
+  struct gx_case one = smooth_bar(clock, steps);
   struct rig rig;
-  case_set_real(&one, GX_TIME_DT, 0.6 / steps);
-  one.value[GX_TIME_CFL].type = GX_NULL;
   assert_true(rig_build(&rig, &one, NULL, NULL, NULL));
   rig_run(&rig, -1);
   NEAR(rig.steps, steps, 0);
@@ -45,32 +51,31 @@ static void clocks_keep_their_order_on_the_moving_mesh(void **state)
   size_t n = run_bar(gx_clock_find("rk4"), 6000, reference);
   for (size_t i = 0; gx_clock_family[i]; i++) {
     const struct gx_clock *clock = gx_clock_family[i];
-    double steps = clock->order > 1 ? 100 : 400;
+    double steps = steps_for(clock);
     run_bar(clock, steps, coarse);
     run_bar(clock, 2 * steps, fine);
     double before = distance(n, coarse, reference), after = distance(n, fine, reference), order = log2(before / after);
     CHECK(order > clock->order - 0.25, "%s: order %.3f, claims %d (%g, %g)", clock->name, order, clock->order, before, after);
-    CHECK(order < clock->order + 0.5, "%s: order %.3f, claims %d", clock->name, order, clock->order);
   }
 }
 
 static double drift_of(const struct gx_clock *clock, double steps)
 {
-  struct gx_case one = smooth_bar(clock);
-  case_set_real(&one, GX_TIME_DT, 0.6 / steps);
-  one.value[GX_TIME_CFL].type = GX_NULL;
+  struct gx_case one = smooth_bar(clock, steps);
   return case_result(&one).measured.drift;
 }
 
-/* Kinetic and elastic energy less the work of the body force: what is left vanishes with the order of the clock. */
+/* Kinetic and elastic energy less the work of the body force: what is left vanishes with the order of the clock. A splitting of
+ * Nystrom's kind keeps order 3 at most: work grows with v, and so breaks the property of kicks that its order 4 rests on. */
 static void energy_and_work_balance(void **state)
 {
   (void)state;
   for (size_t i = 0; gx_clock_family[i]; i++) {
     const struct gx_clock *clock = gx_clock_family[i];
-    double steps = clock->order > 1 ? 100 : 400;
+    double steps = steps_for(clock);
     double before = drift_of(clock, steps), after = drift_of(clock, 2 * steps), order = log2(before / after);
-    CHECK(order > clock->order - 0.25, "%s: order %.3f, claims %d (%g, %g)", clock->name, order, clock->order, before, after);
+    int claim = clock->splitting && clock->order > 3 ? 3 : clock->order;
+    CHECK(order > claim - 0.25 || after < 1e-12, "%s: order %.3f, not %d (%g, %g)", clock->name, order, claim, before, after);
     CHECK(after < 1e-2, "%s: drift %g", clock->name, after);
   }
 }
@@ -83,6 +88,7 @@ static double defect_at(const char *dt)
       case_of("problem.name=bar-linear", "problem.modulus=16", "problem.amplitude=0.015", "mesh.cells=100",
               "mesh.particles_per_cell=2", "method.basis=cpgimp", "method.clock=euler-stress-last", "time.end=1");
   case_set(&one, GX_TIME_DT, dt);
+  gx_parameter_resolve(one.value);
   return case_result(&one).measured.max_defect;
 }
 

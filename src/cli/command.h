@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The commands, one a file, and what they share. */
+#ifndef GRIDCROSS_CLI_COMMAND_H
+#define GRIDCROSS_CLI_COMMAND_H
+
+#include <gridcross/study.h>
+
+#include "options.h"
+
+extern const struct gx_command gx_command_run, gx_command_check, gx_command_init, gx_command_compare, gx_command_list;
+
+#define GX_COMMAND_SET                                                                                                           \
+  {                                                                                                                              \
+    0, "set", "PATH=VALUE", "replace a parameter of the run file; as often as wanted"                                            \
+  }
+
+/* Reads the run file that the first operand names with its --set, and says how many cases were dropped as duplicates.
+ * NULL after messages. */
+struct gx_study *gx_command_read(const struct gx_options *options);
+
+/* Exit code after saying that memory ran out. */
+int gx_command_no_memory(void);
+
+#endif

@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* gridcross compare: studies side by side. */
+#include "command.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <gridcross/compare.h>
+#include <gridcross/store.h>
+
+static const struct gx_option option[] = {
+    {0, "rows", "PATH", "parameter that runs down; default: mesh.cells where it varies, else time.dt, time.cfl, ..."},
+    {0, "columns", "PATH", "parameter that runs across; as often as wanted; default: all that vary but the rows"},
+    {0, "value", "COLUMN", "column to show; as often as wanted; default: result.displacement.max.rms"},
+    {0, "csv", NULL, "print one line a case as CSV, with all digits"},
+    {0, "json", NULL, "the same as JSON"},
+    {0},
+};
+
+/* The directory as it was named, without .study and slashes at its end; owned by the caller. */
+static char *study_name(const char *directory)
+{
+  size_t length = strlen(directory);
+  while (length > 1 && directory[length - 1] == '/') length--;
+  if (length > 6 && !strncmp(directory + length - 6, ".study", 6) && directory[length - 7] != '/') length -= 6;
+  return strndup(directory, length);
+}
+
+static int show(const struct gx_options *options, const struct gx_comparison *comparison)
+{
+  bool csv = gx_options_value(options, "csv"), json = gx_options_value(options, "json");
+  if (!csv && !json) return gx_compare_print(comparison, stdout, stderr) ? GX_EXIT_USAGE : GX_EXIT_DONE;
+  struct gx_table *table = gx_compare_table(comparison, stderr);
+  if (!table) return GX_EXIT_USAGE;
+  if (csv)
+    gx_csv_write(table, stdout);
+  else
+    gx_json_write(table, stdout);
+  gx_table_free(table);
+  return GX_EXIT_DONE;
+}
+
+static int compare(const struct gx_options *options, struct gx_table **table, char **name, const char **column,
+                   const char **value)
+{
+  for (size_t s = 0; s < options->operands; s++) {
+    if (!(name[s] = study_name(options->operand[s]))) return gx_command_no_memory();
+    if (!(table[s] = gx_store_read(options->operand[s], stderr))) return GX_EXIT_USAGE;
+  }
+  const struct gx_comparison comparison = {
+      .studies = options->operands,
+      .table = (const struct gx_table *const *)table,
+      .name = (const char *const *)name,
+      .rows = gx_options_value(options, "rows"),
+      .columns = gx_options_values(options, "columns", column),
+      .column = column,
+      .values = gx_options_values(options, "value", value),
+      .value = value,
+  };
+  return show(options, &comparison);
+}
+
+static int run(const struct gx_options *options)
+{
+  if (gx_options_value(options, "csv") && gx_options_value(options, "json")) {
+    fputs("gridcross compare: --csv or --json, not both\n", stderr);
+    return GX_EXIT_USAGE;
+  }
+  struct gx_table **table = calloc(options->operands + 1, sizeof *table);
+  char **name = calloc(options->operands + 1, sizeof *name);
+  const char **column = calloc(options->count + 1, sizeof *column), **value = calloc(options->count + 1, sizeof *value);
+  int code = table && name && column && value ? compare(options, table, name, column, value) : gx_command_no_memory();
+  for (size_t s = 0; s < options->operands; s++) {
+    if (table) gx_table_free(table[s]);
+    if (name) free(name[s]);
+  }
+  free(table);
+  free(name);
+  free(column);
+  free(value);
+  return code;
+}
+
+const struct gx_command gx_command_compare = {
+    .name = "compare",
+    .operands = "DIR...",
+    .least = 1,
+    .most = -1,
+    .help = "Show studies side by side, with observed orders between rows that refine.",
+    .option = option,
+    .run = run,
+};

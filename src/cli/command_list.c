@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* gridcross list: the families of methods and the parameter table. */
+#include "command.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <gridcross/basis.h>
+#include <gridcross/clock.h>
+#include <gridcross/material.h>
+#include <gridcross/problem.h>
+#include <gridcross/space.h>
+
+#include "../core/nearest.h"
+#include "../view/sheet.h"
+
+enum { INDENT = 4, PAGE = 100 };
+
+static const struct gx_option option[] = {{0}};
+
+/* Text on lines of a page, indented. */
+static void print_text(const char *text)
+{
+  int at = 0;
+  while (*(text += strspn(text, " "))) {
+    int length = (int)strcspn(text, " ");
+    if (at && at + 1 + length > PAGE) {
+      putchar('\n');
+      at = 0;
+    }
+    at += printf(at ? "%*s%.*s" : "%*s%.*s", at ? 1 : INDENT, "", length, text);
+    text += length;
+  }
+  if (at) putchar('\n');
+}
+
+static void print_method(const char *name, const char *facts, const char *help, const char *source)
+{
+  printf("%s%s%s\n", name, *facts ? "  " : "", facts);
+  print_text(help);
+  print_text(source);
+}
+
+static void list_spaces(void)
+{
+  for (const struct gx_space_kind *const *s = gx_space_family; *s; s++)
+    if (!(*s)->of_problem) print_method((*s)->name, (*s)->fixed_grid ? "(fixed grid)" : "", (*s)->help, (*s)->source);
+}
+
+static void list_bases(void)
+{
+  for (const struct gx_basis *const *b = gx_basis_family; *b; b++)
+    print_method((*b)->name, (*b)->has_degree ? "(method.degree 1...9)" : "", (*b)->help, (*b)->source);
+}
+
+static void list_clocks(void)
+{
+  for (const struct gx_clock *const *c = gx_clock_family; *c; c++) {
+    char facts[128], limit[GX_NUMBER_LENGTH];
+    snprintf(limit, sizeof limit, "%.4g", (*c)->stability);
+    snprintf(facts, sizeof facts, "(order %d, %d stage%s%s, stable for omega dt <= %s)", (*c)->order, (*c)->stages,
+             (*c)->stages == 1 ? "" : "s", (*c)->symplectic ? ", symplectic" : "", limit);
+    print_method((*c)->name, facts, (*c)->help, (*c)->source);
+  }
+}
+
+static void list_problems(void)
+{
+  for (const struct gx_problem *const *p = gx_problem_family; *p; p++) {
+    char facts[128];
+    snprintf(facts, sizeof facts, "(material %s, 1%s dimension%s)", (*p)->material->name,
+             (*p)->max_dim == 3   ? " to 3"
+             : (*p)->max_dim == 2 ? " to 2"
+                                  : "",
+             (*p)->max_dim > 1 ? "s" : "");
+    print_method((*p)->name, facts, (*p)->help, (*p)->source);
+  }
+}
+
+static void list_materials(void)
+{
+  for (const struct gx_material *const *m = gx_material_family; *m; m++) print_method((*m)->name, "", (*m)->help, (*m)->source);
+}
+
+static void print_range(const struct gx_parameter *p)
+{
+  char least[GX_NUMBER_LENGTH], most[GX_NUMBER_LENGTH];
+  gx_value_real(p->least, least);
+  gx_value_real(p->most, most);
+  fputs(p->type == GX_INTEGER ? "integer" : "number", stdout);
+  if (isfinite(p->least)) printf(" %s %s", p->above_least ? ">" : ">=", least);
+  if (isfinite(p->most)) printf("%s %s %s", isfinite(p->least) ? "," : "", p->below_most ? "<" : "<=", most);
+}
+
+static void list_parameters(void)
+{
+  for (const struct gx_parameter *p = gx_parameters; p < gx_parameters + GX_PARAMETERS; p++) {
+    printf("%s  (", p->path);
+    const char *gap = "";
+    for (int i = 0; p->choice && p->choice(i); i++, gap = ", ") printf("%s%s", gap, p->choice(i));
+    if (p->type != GX_TEXT)
+      print_range(p);
+    else if (!p->choice)
+      fputs("text", stdout);
+    if (*p->unit) printf("; %s", p->unit);
+    if (p->standard) printf("; default %s", p->standard);
+    puts(")");
+    print_text(p->help);
+    if (p->why) {
+      char why[512];
+      snprintf(why, sizeof why, "Why: %s", p->why);
+      print_text(why);
+    }
+  }
+}
+
+static const struct {
+  const char *name;
+  void (*list)(void);
+} topic[] = {{"spaces", list_spaces},     {"bases", list_bases},         {"clocks", list_clocks},
+             {"problems", list_problems}, {"materials", list_materials}, {"parameters", list_parameters}};
+
+enum { TOPICS = sizeof topic / sizeof *topic };
+
+static int run(const struct gx_options *options)
+{
+  if (!options->operands) {
+    for (int t = 0; t < TOPICS; t++) {
+      printf("%s%s\n\n", t ? "\n" : "", topic[t].name);
+      topic[t].list();
+    }
+    return GX_EXIT_DONE;
+  }
+  struct gx_nearest near = {.word = options->operand[0]};
+  for (int t = 0; t < TOPICS; t++) {
+    if (!strcmp(options->operand[0], topic[t].name)) {
+      topic[t].list();
+      return GX_EXIT_DONE;
+    }
+    gx_nearest_try(&near, topic[t].name);
+  }
+  fprintf(stderr, "gridcross list: nothing is called '%s'", options->operand[0]);
+  if (*near.best) fprintf(stderr, ": did you mean %s?\n", near.best);
+  if (!*near.best) fputs("; see gridcross list --help\n", stderr);
+  return GX_EXIT_USAGE;
+}
+
+const struct gx_command gx_command_list = {
+    .name = "list",
+    .operands = "[spaces|bases|clocks|problems|materials|parameters]",
+    .least = 0,
+    .most = 1,
+    .help = "List the methods that can be combined, or the parameters of run files; without argument all of them.",
+    .option = option,
+    .run = run,
+};

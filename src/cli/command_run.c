@@ -1,0 +1,197 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* gridcross run: a run file to a study on disk and a table. */
+#include "command.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <gridcross/store.h>
+
+#include "../view/axes.h"
+#include "../view/sheet.h"
+
+static const struct gx_option option[] = {
+    GX_COMMAND_SET,
+    {'o', "output", "DIR", "where the study goes; default: the run file's name with .study"},
+    {'j', "jobs", "N", "cases run at once; default: the number of processors"},
+    {0, "csv", NULL, "print the whole table as CSV"},
+    {0, "json", NULL, "print the whole table as JSON"},
+    {0, "no-timing", NULL, "print no columns that differ between equal runs"},
+    {'q', "quiet", NULL, "no progress and no notes on standard error"},
+    {0},
+};
+
+/* NAME.study in the working directory, owned by the caller. */
+static char *default_directory(const char *run_file)
+{
+  const char *slash = strrchr(run_file, '/'), *name = slash ? slash + 1 : run_file, *dot = strrchr(name, '.');
+  size_t length = dot && dot > name ? (size_t)(dot - name) : strlen(name);
+  char *directory = malloc(length + 10);
+  if (directory) sprintf(directory, "./%.*s.study", (int)length, name);
+  return directory;
+}
+
+static char *choose_directory(const struct gx_options *options)
+{
+  const char *given = gx_options_value(options, "output");
+  bool stream = !strcmp(options->operand[0], "-");
+  if (given && !*given) {
+    fputs("gridcross run: -o names no directory\n", stderr);
+    return NULL;
+  }
+  if (!given && stream) {
+    fputs("gridcross run: a run file from standard input needs -o DIR\n", stderr);
+    return NULL;
+  }
+  char *directory = given ? strdup(given) : default_directory(options->operand[0]);
+  if (!directory) gx_command_no_memory();
+  return directory;
+}
+
+/* Threads, or 0 after a message. */
+static size_t choose_jobs(const struct gx_options *options)
+{
+  const char *given = gx_options_value(options, "jobs");
+  char *end;
+  if (!given) {
+    long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    return processors > 0 ? (size_t)processors : 1;
+  }
+  long jobs = strtol(given, &end, 10);
+  if (end != given && !*end && jobs >= 1 && jobs <= 4096) return (size_t)jobs;
+  fprintf(stderr, "gridcross run: -j takes a number from 1 to 4096, not '%s'\n", given);
+  return 0;
+}
+
+static double now(void)
+{
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void show_progress(void *context, size_t done, size_t total)
+{
+  const double *start = context;
+  double left = (now() - *start) / (double)done * (double)(total - done);
+  fprintf(stderr, "\r\033[K%zu of %zu cases", done, total);
+  if (done < total) fprintf(stderr, ", about %.0f s left", left);
+  if (done == total) fputs("\r\033[K", stderr);
+  fflush(stderr);
+}
+
+/* What varies and what matters most. */
+static struct gx_table *summary(const struct gx_table *table, bool timing)
+{
+  static const char *const shown[] = {"result.status",       "result.displacement.max.rms", "result.crossings",
+                                      "result.energy.drift", "result.ns_per_particle_step", "result.reason"};
+  size_t *column = calloc(table->columns + 8, sizeof *column);
+  long count = column ? gx_axes_find(table, 0, column) : -1;
+  for (size_t i = 0; i < sizeof shown / sizeof *shown && count >= 0; i++) {
+    long c = gx_table_find(table, shown[i]);
+    if (c >= 0 && (timing || strcmp(shown[i], "result.ns_per_particle_step") != 0)) column[count++] = (size_t)c;
+  }
+  struct gx_table *short_table = count < 0 ? NULL : gx_table_create((size_t)count, table->rows);
+  int failed = !short_table;
+  for (long c = 0; c < count && !failed; c++) failed = gx_table_copy(short_table, (size_t)c, table, column[c]);
+  free(column);
+  if (!failed) return short_table;
+  gx_table_free(short_table);
+  return NULL;
+}
+
+static int print_table(const struct gx_options *options, const struct gx_study *study, const struct gx_result *results)
+{
+  bool timing = !gx_options_value(options, "no-timing");
+  struct gx_table *table = gx_study_table(study, results, timing), *brief = NULL;
+  int failed = !table;
+  if (!failed && gx_options_value(options, "csv")) {
+    gx_csv_write(table, stdout);
+  } else if (!failed && gx_options_value(options, "json")) {
+    gx_json_write(table, stdout);
+  } else if (!failed) {
+    brief = summary(table, timing);
+    failed = !brief || gx_sheet_print(brief, stdout);
+  }
+  gx_table_free(brief);
+  gx_table_free(table);
+  return failed ? gx_command_no_memory() : GX_EXIT_DONE;
+}
+
+static void warn_unstable(const struct gx_study *study, const struct gx_result *results)
+{
+  size_t above = 0;
+  for (size_t i = 0; i < study->count; i++)
+    if (results[i].dt > results[i].stable_dt && above++ < 10)
+      fprintf(stderr, "warning: case %s: dt = %.4g s is above the largest stable step, about %.4g s\n", study->cases[i].id,
+              results[i].dt, results[i].stable_dt);
+  if (above > 10) fprintf(stderr, "warning: and %zu cases more\n", above - 10);
+}
+
+static int report(const struct gx_options *options, const struct gx_study *study, const struct gx_result *results,
+                  const char *directory)
+{
+  int code = print_table(options, study, results);
+  for (size_t i = 0; i < study->count; i++) {
+    if (results[i].outcome.status != GX_FAILED) continue;
+    fprintf(stderr, "gridcross run: case %s failed: %s\n", study->cases[i].id, results[i].outcome.reason);
+    code = GX_EXIT_FAILED;
+  }
+  if (gx_options_value(options, "quiet")) return code;
+  warn_unstable(study, results);
+  fprintf(stderr, "study: %s\n", directory);
+  return code;
+}
+
+static int run_study(const struct gx_options *options, const struct gx_study *study, const char *directory, size_t jobs)
+{
+  bool quiet = gx_options_value(options, "quiet");
+  struct gx_result *results = calloc(study->count + 1, sizeof *results);
+  char *line = gx_options_line(options);
+  int code = GX_EXIT_FAILED;
+  if (!results || !line) {
+    gx_command_no_memory();
+  } else {
+    double start = now();
+    const struct gx_progress progress = {.context = &start, .done = show_progress};
+    gx_study_run(study, jobs, !quiet && isatty(STDERR_FILENO) ? &progress : NULL, results);
+    const struct gx_store_run about = {.command = line, .seconds = now() - start};
+    int stored = gx_store_write(directory, study, results, &about, stderr);
+    code = report(options, study, results, directory);
+    if (stored) code = GX_EXIT_FAILED;
+  }
+  for (size_t i = 0; results && i < study->count; i++) gx_case_free(&results[i]);
+  free(results);
+  free(line);
+  return code;
+}
+
+static int run(const struct gx_options *options)
+{
+  if (gx_options_value(options, "csv") && gx_options_value(options, "json")) {
+    fputs("gridcross run: --csv or --json, not both\n", stderr);
+    return GX_EXIT_USAGE;
+  }
+  size_t jobs = choose_jobs(options);
+  char *directory = jobs ? choose_directory(options) : NULL;
+  struct gx_study *study = directory ? gx_command_read(options) : NULL;
+  int code = GX_EXIT_USAGE;
+  if (study && study->duplicates && !gx_options_value(options, "quiet"))
+    fprintf(stderr, "note: %zu cases are equal to others and run once\n", study->duplicates);
+  if (study && !gx_store_prepare(directory, stderr)) code = run_study(options, study, directory, jobs);
+  if (study) gx_runfile_free(study);
+  free(directory);
+  return code;
+}
+
+const struct gx_command gx_command_run = {
+    .name = "run",
+    .operands = "FILE.yaml",
+    .least = 1,
+    .most = 1,
+    .help = "Run every case of a run file (-: standard input), write the study, and print a table.",
+    .option = option,
+    .run = run,
+};

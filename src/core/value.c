@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Printing and ordering values. */
+#include <gridcross/value.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void gx_value_real(double value, char text[GX_NUMBER_LENGTH])
+{
+  for (int digits = 15; digits <= 17; digits++) {
+    snprintf(text, GX_NUMBER_LENGTH, "%.*g", digits, value);
+    if (strtod(text, NULL) == value) return;
+  }
+}
+
+static double number(struct gx_value value)
+{
+  return value.type == GX_INTEGER ? (double)value.integer : value.real;
+}
+
+static int kind(struct gx_value value)
+{
+  return value.type == GX_NULL ? 0 : value.type == GX_TEXT ? 2 : 1;
+}
+
+int gx_value_compare(struct gx_value a, struct gx_value b)
+{
+  if (kind(a) != kind(b)) return kind(a) - kind(b);
+  if (kind(a) == 0) return 0;
+  if (kind(a) == 2) return strcmp(a.text, b.text);
+  if (a.type == GX_INTEGER && b.type == GX_INTEGER) return (a.integer > b.integer) - (a.integer < b.integer);
+  return (number(a) > number(b)) - (number(a) < number(b));
+}

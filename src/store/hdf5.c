@@ -1,0 +1,331 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* study.h5. The only file that sees HDF5. Object times are off, so that equal studies give equal bytes. */
+#include <gridcross/store.h>
+
+#include <errno.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <hdf5.h>
+
+#include <gridcross/build.h>
+
+enum { FORMAT = 1 };
+
+static const int64_t null_integer = INT64_MIN;
+
+/* HDF5 prints its error stack by default; we print one message instead. */
+struct silence {
+  H5E_auto2_t function;
+  void *data;
+};
+
+static struct silence silence_begin(void)
+{
+  struct silence old = {0};
+  H5Eget_auto2(H5E_DEFAULT, &old.function, &old.data);
+  H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+  return old;
+}
+
+static void silence_end(struct silence old)
+{
+  H5Eset_auto2(H5E_DEFAULT, old.function, old.data);
+}
+
+static hid_t text_type(void)
+{
+  hid_t type = H5Tcopy(H5T_C_S1);
+  if (type < 0) return type;
+  if (H5Tset_size(type, H5T_VARIABLE) < 0 || H5Tset_cset(type, H5T_CSET_UTF8) < 0) {
+    H5Tclose(type);
+    return -1;
+  }
+  return type;
+}
+
+static int put_attribute(hid_t object, const char *name, hid_t file_type, hid_t memory_type, const void *value)
+{
+  int failed = -1;
+  hid_t space = H5Screate(H5S_SCALAR);
+  hid_t attribute = space < 0 ? -1 : H5Acreate2(object, name, file_type, space, H5P_DEFAULT, H5P_DEFAULT);
+  if (attribute >= 0 && H5Awrite(attribute, memory_type, value) >= 0) failed = 0;
+  if (attribute >= 0 && H5Aclose(attribute) < 0) failed = -1;
+  if (space >= 0) H5Sclose(space);
+  return failed;
+}
+
+static int put_text(hid_t object, const char *name, const char *text)
+{
+  hid_t type = text_type();
+  int failed = type < 0 ? -1 : put_attribute(object, name, type, type, &text);
+  if (type >= 0) H5Tclose(type);
+  return failed;
+}
+
+static int put_integer(hid_t object, const char *name, int64_t value)
+{
+  return put_attribute(object, name, H5T_STD_I64LE, H5T_NATIVE_INT64, &value);
+}
+
+/* A group whose members are listed in the order in which they were made. */
+static hid_t make_group(hid_t parent, const char *name)
+{
+  hid_t group = -1, property = H5Pcreate(H5P_GROUP_CREATE);
+  if (property < 0) return -1;
+  if (H5Pset_obj_track_times(property, false) >= 0 &&
+      H5Pset_link_creation_order(property, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED) >= 0)
+    group = H5Gcreate2(parent, name, H5P_DEFAULT, property, H5P_DEFAULT);
+  H5Pclose(property);
+  return group;
+}
+
+static hid_t make_dataset(hid_t group, const char *name, hid_t type, size_t rows)
+{
+  hsize_t shape[1] = {rows};
+  hid_t dataset = -1, space = H5Screate_simple(1, shape, NULL), property = H5Pcreate(H5P_DATASET_CREATE);
+  if (space >= 0 && property >= 0 && H5Pset_obj_track_times(property, false) >= 0)
+    dataset = H5Dcreate2(group, name, type, space, H5P_DEFAULT, property, H5P_DEFAULT);
+  if (property >= 0) H5Pclose(property);
+  if (space >= 0) H5Sclose(space);
+  return dataset;
+}
+
+/* Entries of a column as HDF5 takes them: double, int64_t or const char *, 8 bytes each. */
+union entry {
+  double real;
+  int64_t integer;
+  const char *text;
+};
+_Static_assert(sizeof(union entry) == sizeof(double) && sizeof(union entry) == sizeof(const char *), "entries are packed");
+
+static union entry to_entry(enum gx_type type, struct gx_value value)
+{
+  if (type == GX_REAL) {
+    double real = value.type == GX_INTEGER ? (double)value.integer : value.real;
+    return (union entry){.real = value.type == GX_NULL ? NAN : real};
+  }
+  if (type == GX_INTEGER) return (union entry){.integer = value.type == GX_NULL ? null_integer : value.integer};
+  return (union entry){.text = value.type == GX_NULL ? NULL : value.text};
+}
+
+static int put_column(hid_t group, const struct gx_table *table, size_t c, hid_t text, union entry *entry)
+{
+  const struct gx_column *column = &table->column[c];
+  bool real = column->type == GX_REAL, integer = column->type == GX_INTEGER;
+  hid_t file_type = real ? H5T_IEEE_F64LE : integer ? H5T_STD_I64LE : text;
+  hid_t memory_type = real ? H5T_NATIVE_DOUBLE : integer ? H5T_NATIVE_INT64 : text;
+  for (size_t r = 0; r < table->rows; r++) entry[r] = to_entry(column->type, gx_table_get(table, r, c));
+  hid_t dataset = make_dataset(group, column->name, file_type, table->rows);
+  if (dataset < 0) return -1;
+  int failed = put_text(dataset, "unit", column->unit);
+  if (!failed && integer) failed = put_integer(dataset, "null", null_integer);
+  if (!failed && H5Dwrite(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, entry) < 0) failed = -1;
+  return H5Dclose(dataset) < 0 ? -1 : failed;
+}
+
+static int put_table(hid_t parent, const char *name, const struct gx_table *table)
+{
+  int failed = -1;
+  union entry *entry = calloc(table->rows + 1, sizeof *entry);
+  hid_t text = text_type(), group = make_group(parent, name);
+  if (entry && text >= 0 && group >= 0) failed = 0;
+  for (size_t c = 0; c < table->columns && !failed; c++) failed = put_column(group, table, c, text, entry);
+  if (group >= 0 && H5Gclose(group) < 0) failed = -1;
+  if (text >= 0) H5Tclose(text);
+  free(entry);
+  return failed;
+}
+
+static int put_histories(hid_t file, const struct gx_study *study, const struct gx_result *results)
+{
+  hid_t group = make_group(file, "histories");
+  int failed = group < 0 ? -1 : 0;
+  for (size_t i = 0; i < study->count && !failed; i++) {
+    if (!results[i].history.samples) continue;
+    struct gx_table *history = gx_study_table_history(&results[i]);
+    failed = history ? put_table(group, study->cases[i].id, history) : -1;
+    gx_table_free(history);
+  }
+  if (group >= 0 && H5Gclose(group) < 0) failed = -1;
+  return failed;
+}
+
+static int put_provenance(hid_t file, const struct gx_study *study)
+{
+  const struct {
+    const char *name, *text;
+  } rows[] = {{"title", study->title},         {"run_file", study->source},
+              {"version", gx_build.version},   {"git_revision", gx_build.git_revision},
+              {"compiler", gx_build.compiler}, {"flags", gx_build.flags},
+              {"gsl", gx_build.gsl},           {"hdf5", gx_build.hdf5},
+              {"yaml", gx_build.yaml}};
+  hid_t group = make_group(file, "provenance");
+  if (group < 0) return -1;
+  int failed = put_integer(group, "format", FORMAT);
+  for (size_t i = 0; i < sizeof rows / sizeof *rows && !failed; i++) failed = put_text(group, rows[i].name, rows[i].text);
+  return H5Gclose(group) < 0 ? -1 : failed;
+}
+
+int gx_hdf5_write(const char *path, const struct gx_study *study, const struct gx_result *results, const struct gx_table *table,
+                  FILE *errors)
+{
+  struct silence old = silence_begin();
+  int failed = -1;
+  hid_t file = -1, property = H5Pcreate(H5P_FILE_CREATE);
+  errno = 0;
+  if (property >= 0 && H5Pset_obj_track_times(property, false) >= 0) file = H5Fcreate(path, H5F_ACC_TRUNC, property, H5P_DEFAULT);
+  if (file >= 0) {
+    failed = put_table(file, "table", table);
+    if (!failed) failed = put_histories(file, study, results);
+    if (!failed) failed = put_provenance(file, study);
+    if (H5Fclose(file) < 0) failed = -1;
+  }
+  if (failed) fprintf(errors, "%s: cannot write: %s\n", path, errno ? strerror(errno) : "HDF5 failed");
+  if (property >= 0) H5Pclose(property);
+  silence_end(old);
+  return failed;
+}
+
+/* A text attribute, owned by the caller; NULL when there is none. */
+static char *get_text(hid_t object, const char *name)
+{
+  char *text = NULL, *copy = NULL;
+  hid_t attribute = H5Aopen(object, name, H5P_DEFAULT);
+  if (attribute < 0) return NULL;
+  hid_t type = text_type(), stored = H5Aget_type(attribute), space = H5Aget_space(attribute);
+  if (type >= 0 && stored >= 0 && space >= 0 && H5Tis_variable_str(stored) > 0 && H5Sget_simple_extent_npoints(space) == 1 &&
+      H5Aread(attribute, type, &text) >= 0) {
+    copy = strdup(text ? text : "");
+    H5Dvlen_reclaim(type, space, H5P_DEFAULT, &text);
+  }
+  if (space >= 0) H5Sclose(space);
+  if (stored >= 0) H5Tclose(stored);
+  if (type >= 0) H5Tclose(type);
+  H5Aclose(attribute);
+  return copy;
+}
+
+static int get_integer(hid_t object, const char *name, int64_t *value)
+{
+  hid_t attribute = H5Aopen(object, name, H5P_DEFAULT);
+  if (attribute < 0) return -1;
+  hid_t space = H5Aget_space(attribute);
+  int failed =
+      space >= 0 && H5Sget_simple_extent_npoints(space) == 1 && H5Aread(attribute, H5T_NATIVE_INT64, value) >= 0 ? 0 : -1;
+  if (space >= 0) H5Sclose(space);
+  H5Aclose(attribute);
+  return failed;
+}
+
+static struct gx_value from_entry(enum gx_type type, union entry entry)
+{
+  if (type == GX_REAL && !isnan(entry.real)) return (struct gx_value){.type = GX_REAL, .real = entry.real};
+  if (type == GX_INTEGER && entry.integer != null_integer)
+    return (struct gx_value){.type = GX_INTEGER, .integer = (long)entry.integer};
+  if (type == GX_TEXT && entry.text) return (struct gx_value){.type = GX_TEXT, .text = entry.text};
+  return (struct gx_value){.type = GX_NULL};
+}
+
+/* Number of rows and type of a dataset that can be a column, or -1. */
+static hssize_t column_shape(hid_t dataset, enum gx_type *type)
+{
+  hssize_t rows = -1;
+  hid_t space = H5Dget_space(dataset), stored = H5Dget_type(dataset);
+  if (space >= 0 && stored >= 0 && H5Sget_simple_extent_ndims(space) == 1) {
+    H5T_class_t class = H5Tget_class(stored);
+    *type = class == H5T_FLOAT ? GX_REAL : class == H5T_INTEGER ? GX_INTEGER : H5Tis_variable_str(stored) > 0 ? GX_TEXT : GX_NULL;
+    if (*type != GX_NULL) rows = H5Sget_simple_extent_npoints(space);
+  }
+  if (stored >= 0) H5Tclose(stored);
+  if (space >= 0) H5Sclose(space);
+  return rows;
+}
+
+static int get_column(hid_t dataset, const char *name, struct gx_table *table, size_t c)
+{
+  enum gx_type type;
+  if (column_shape(dataset, &type) != (hssize_t)table->rows) return -1;
+  int failed = -1;
+  char *unit = get_text(dataset, "unit");
+  union entry *entry = calloc(table->rows + 1, sizeof *entry);
+  hid_t text = text_type(), space = H5Dget_space(dataset);
+  hid_t memory_type = type == GX_REAL ? H5T_NATIVE_DOUBLE : type == GX_INTEGER ? H5T_NATIVE_INT64 : text;
+  if (entry && text >= 0 && space >= 0 && H5Dread(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, entry) >= 0) {
+    failed = gx_table_column(table, c, name, unit ? unit : "", type);
+    for (size_t r = 0; r < table->rows && !failed; r++) failed = gx_table_set(table, r, c, from_entry(type, entry[r]));
+    if (type == GX_TEXT) H5Dvlen_reclaim(text, space, H5P_DEFAULT, entry);
+  }
+  if (space >= 0) H5Sclose(space);
+  if (text >= 0) H5Tclose(text);
+  free(entry);
+  free(unit);
+  return failed;
+}
+
+static struct gx_table *get_table(hid_t group)
+{
+  struct gx_table *table = NULL;
+  H5G_info_t info;
+  if (H5Gget_info(group, &info) < 0 || info.nlinks == 0) return NULL;
+  for (hsize_t c = 0; c < info.nlinks; c++) {
+    char name[256];
+    enum gx_type type;
+    int failed = -1;
+    if (H5Lget_name_by_idx(group, ".", H5_INDEX_CRT_ORDER, H5_ITER_INC, c, name, sizeof name, H5P_DEFAULT) > 0) {
+      hid_t dataset = H5Dopen2(group, name, H5P_DEFAULT);
+      hssize_t rows = dataset < 0 ? -1 : column_shape(dataset, &type);
+      if (!table && rows >= 0) table = gx_table_create(info.nlinks, (size_t)rows);
+      if (table && dataset >= 0) failed = get_column(dataset, name, table, c);
+      if (dataset >= 0) H5Dclose(dataset);
+    }
+    if (!failed) continue;
+    gx_table_free(table);
+    return NULL;
+  }
+  return table;
+}
+
+/* Opens a member only when it is there. */
+static hid_t open_group(hid_t file, const char *name)
+{
+  return H5Lexists(file, name, H5P_DEFAULT) > 0 ? H5Gopen2(file, name, H5P_DEFAULT) : -1;
+}
+
+static struct gx_table *read_file(hid_t file, const char *path, FILE *errors)
+{
+  struct gx_table *table = NULL;
+  int64_t format = 0;
+  hid_t provenance = open_group(file, "provenance"), group = open_group(file, "table");
+  if (provenance < 0 || group < 0 || get_integer(provenance, "format", &format))
+    fprintf(errors, "%s: is not a study that gridcross wrote\n", path);
+  else if (format != FORMAT)
+    fprintf(errors, "%s: has format %lld; this gridcross reads format %d\n", path, (long long)format, FORMAT);
+  else if (!(table = get_table(group)))
+    fprintf(errors, "%s: its table is damaged\n", path);
+  if (group >= 0) H5Gclose(group);
+  if (provenance >= 0) H5Gclose(provenance);
+  return table;
+}
+
+struct gx_table *gx_hdf5_read(const char *path, FILE *errors)
+{
+  FILE *probe = fopen(path, "rb");
+  if (!probe) {
+    fprintf(errors, "%s: %s\n", path, strerror(errno));
+    return NULL;
+  }
+  fclose(probe);
+  struct silence old = silence_begin();
+  struct gx_table *table = NULL;
+  hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file < 0)
+    fprintf(errors, "%s: is damaged or not an HDF5 file\n", path);
+  else
+    table = read_file(file, path, errors);
+  if (file >= 0) H5Fclose(file);
+  silence_end(old);
+  return table;
+}

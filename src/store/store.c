@@ -1,0 +1,269 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The study directory. Files are written beside their final names, flushed to disk and renamed, study.h5 first, so that a kill
+ * at any instant leaves the old study or the new one. */
+#include <gridcross/store.h>
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { STUDY, TABLE, TIMING, RUN, FILES };
+
+static const char *const names[FILES] = {
+    [STUDY] = "study.h5", [TABLE] = "table.csv", [TIMING] = "timing.csv", [RUN] = "run.json"};
+
+/* DIRECTORY/<prefix><name><suffix>, owned by the caller */
+static char *path_in(const char *directory, const char *prefix, const char *name, const char *suffix)
+{
+  size_t room = strlen(directory) + strlen(prefix) + strlen(name) + strlen(suffix) + 2;
+  char *path = malloc(room);
+  if (path) snprintf(path, room, "%s/%s%s%s", directory, prefix, name, suffix);
+  return path;
+}
+
+static char *partial_path(const char *directory, int file)
+{
+  return path_in(directory, ".", names[file], ".partial");
+}
+
+static int say(FILE *errors, const char *path)
+{
+  fprintf(errors, "%s: %s\n", path ? path : "study", path ? strerror(errno) : "out of memory");
+  return -1;
+}
+
+/* Only what an interrupted run leaves: nothing, or partial files. */
+static int check_empty(const char *directory, FILE *errors)
+{
+  DIR *stream = opendir(directory);
+  if (!stream) return say(errors, directory);
+  int failed = 0;
+  for (struct dirent *entry; !failed && (entry = readdir(stream));) {
+    size_t n = strlen(entry->d_name);
+    bool ours = !strcmp(entry->d_name, ".") || !strcmp(entry->d_name, "..") ||
+                (n > 8 && entry->d_name[0] == '.' && !strcmp(entry->d_name + n - 8, ".partial"));
+    if (ours) continue;
+    fprintf(errors, "%s: is neither a study nor empty (it holds %s): name another directory with -o\n", directory, entry->d_name);
+    failed = -1;
+  }
+  closedir(stream);
+  return failed;
+}
+
+static int check_writable(const char *directory, FILE *errors)
+{
+  char *path = partial_path(directory, RUN);
+  int file = path ? open(path, O_WRONLY | O_CREAT, 0666) : -1;
+  int failed = file < 0 ? say(errors, path) : 0;
+  if (file >= 0) {
+    close(file);
+    unlink(path);
+  }
+  free(path);
+  return failed;
+}
+
+/* mkdir -p */
+static int make_directory(const char *directory, FILE *errors)
+{
+  char *path = strdup(directory);
+  if (!path) return say(errors, NULL);
+  int failed = 0;
+  for (char *c = path + 1; !failed && path[0]; c++) {
+    bool last = !*c;
+    if (!last && *c != '/') continue;
+    *c = '\0';
+    if (mkdir(path, 0777) && errno != EEXIST) failed = say(errors, path);
+    if (last) break;
+    *c = '/';
+  }
+  free(path);
+  return failed;
+}
+
+int gx_store_prepare(const char *directory, FILE *errors)
+{
+  struct stat status;
+  if (make_directory(directory, errors)) return -1;
+  if (stat(directory, &status)) return say(errors, directory);
+  if (!S_ISDIR(status.st_mode)) {
+    fprintf(errors, "%s: is not a directory: name another place with -o\n", directory);
+    return -1;
+  }
+  char *study = path_in(directory, "", names[STUDY], "");
+  if (!study) return say(errors, NULL);
+  int failed = 0;
+  if (stat(study, &status)) {
+    failed = check_empty(directory, errors);
+  } else {
+    struct gx_table *old = gx_hdf5_read(study, errors);
+    if (!old) fprintf(errors, "%s: will not be overwritten: remove it, or name another directory with -o\n", study);
+    failed = old ? 0 : -1;
+    gx_table_free(old);
+  }
+  free(study);
+  return failed ? failed : check_writable(directory, errors);
+}
+
+static struct gx_table *timing_table(const struct gx_study *study, const struct gx_result *results)
+{
+  struct gx_table *full = gx_study_table(study, results, true);
+  struct gx_table *timing = full ? gx_table_create(3, study->count) : NULL;
+  int failed = !timing;
+  const size_t from[] = {0, full ? full->columns - 2 : 0, full ? full->columns - 1 : 0};
+  const char *const name[] = {"case", "seconds", "ns_per_particle_step"};
+  for (size_t c = 0; c < 3 && !failed; c++)
+    failed = gx_table_copy(timing, c, full, from[c]) ||
+             gx_table_column(timing, c, name[c], full->column[from[c]].unit, full->column[from[c]].type);
+  gx_table_free(full);
+  if (!failed) return timing;
+  gx_table_free(timing);
+  return NULL;
+}
+
+static struct gx_table *run_table(const struct gx_store_run *run)
+{
+  char host[256] = "", date[32] = "";
+  time_t now = time(NULL);
+  struct tm utc;
+  gethostname(host, sizeof host - 1);
+  if (gmtime_r(&now, &utc)) strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  const struct {
+    const char *name;
+    struct gx_value value;
+  } column[] = {{"host", {.type = GX_TEXT, .text = host}},
+                {"date", {.type = GX_TEXT, .text = date}},
+                {"command", {.type = GX_TEXT, .text = run->command}},
+                {"seconds", {.type = GX_REAL, .real = run->seconds}}};
+  struct gx_table *table = gx_table_create(4, 1);
+  int failed = !table;
+  for (size_t c = 0; c < 4 && !failed; c++)
+    failed = gx_table_column(table, c, column[c].name, "", column[c].value.type) || gx_table_set(table, 0, c, column[c].value);
+  if (!failed) return table;
+  gx_table_free(table);
+  return NULL;
+}
+
+static int write_text(const char *path, int which, const struct gx_table *table, FILE *errors)
+{
+  FILE *out = fopen(path, "wb");
+  if (!out) return say(errors, path);
+  if (which == RUN) {
+    gx_json_write_object(table, 0, out);
+    putc('\n', out);
+  } else {
+    gx_csv_write(table, out);
+  }
+  int failed = fflush(out) || ferror(out) ? say(errors, path) : 0;
+  if (fclose(out) && !failed) failed = say(errors, path);
+  return failed;
+}
+
+static int flush_to_disk(const char *path, FILE *errors)
+{
+  int file = open(path, O_RDONLY);
+  if (file < 0) return say(errors, path);
+  /* EINVAL: a file system that cannot; nothing more to be done there. */
+  int failed = fsync(file) && errno != EINVAL ? say(errors, path) : 0;
+  close(file);
+  return failed;
+}
+
+static int rename_all(const char *directory, FILE *errors)
+{
+  int failed = 0;
+  for (int f = 0; f < FILES && !failed; f++) {
+    char *from = partial_path(directory, f), *to = path_in(directory, "", names[f], "");
+    if (!from || !to)
+      failed = say(errors, NULL);
+    else if (rename(from, to))
+      failed = say(errors, to);
+    free(from);
+    free(to);
+  }
+  return failed ? failed : flush_to_disk(directory, errors);
+}
+
+static void remove_partials(const char *directory)
+{
+  for (int f = 0; f < FILES; f++) {
+    char *path = partial_path(directory, f);
+    if (path) unlink(path);
+    free(path);
+  }
+}
+
+int gx_store_write(const char *directory, const struct gx_study *study, const struct gx_result *results,
+                   const struct gx_store_run *run, FILE *errors)
+{
+  struct gx_table *main_table = gx_study_table(study, results, false);
+  struct gx_table *table[FILES] = {main_table, main_table, timing_table(study, results), run_table(run)};
+  int failed = 0;
+  for (int f = 0; f < FILES && !failed; f++) {
+    char *path = partial_path(directory, f);
+    if (!path || !table[f])
+      failed = say(errors, NULL);
+    else if (f == STUDY)
+      failed = gx_hdf5_write(path, study, results, table[f], errors);
+    else
+      failed = write_text(path, f, table[f], errors);
+    if (!failed) failed = flush_to_disk(path, errors);
+    free(path);
+  }
+  if (!failed) failed = rename_all(directory, errors);
+  if (failed) remove_partials(directory);
+  gx_table_free(main_table);
+  gx_table_free(table[TIMING]);
+  gx_table_free(table[RUN]);
+  return failed;
+}
+
+/* The same table with empty timing columns at its end. Frees the old one. */
+static struct gx_table *widen(struct gx_table *narrow)
+{
+  struct gx_table *wide = gx_table_create(narrow->columns + 2, narrow->rows);
+  int failed = !wide;
+  for (size_t c = 0; c < narrow->columns && !failed; c++) failed = gx_table_copy(wide, c, narrow, c);
+  if (!failed)
+    failed = gx_table_column(wide, wide->columns - 2, "result.seconds", "s", GX_REAL) ||
+             gx_table_column(wide, wide->columns - 1, "result.ns_per_particle_step", "ns", GX_REAL);
+  gx_table_free(narrow);
+  if (!failed) return wide;
+  gx_table_free(wide);
+  return NULL;
+}
+
+/* Timings are a comment on the table: a missing or foreign timing.csv leaves them null. */
+static void read_timing(const char *path, struct gx_table *table)
+{
+  FILE *in = fopen(path, "rb");
+  long id_column = gx_table_find(table, "case");
+  char line[256], id[GX_ID_LENGTH];
+  struct gx_value seconds = {.type = GX_REAL}, cost = {.type = GX_REAL};
+  while (in && id_column >= 0 && fgets(line, sizeof line, in)) {
+    if (sscanf(line, "%16[^,],%lf,%lf", id, &seconds.real, &cost.real) != 3) continue;
+    for (size_t r = 0; r < table->rows; r++) {
+      struct gx_value value = gx_table_get(table, r, (size_t)id_column);
+      if (value.type != GX_TEXT || strcmp(value.text, id)) continue;
+      gx_table_set(table, r, table->columns - 2, seconds);
+      gx_table_set(table, r, table->columns - 1, cost);
+    }
+  }
+  if (in) fclose(in);
+}
+
+struct gx_table *gx_store_read(const char *directory, FILE *errors)
+{
+  char *study = path_in(directory, "", names[STUDY], ""), *timing = path_in(directory, "", names[TIMING], "");
+  struct gx_table *table = study && timing ? gx_hdf5_read(study, errors) : NULL;
+  if (table && !(table = widen(table))) say(errors, NULL);
+  if (table) read_timing(timing, table);
+  free(study);
+  free(timing);
+  return table;
+}

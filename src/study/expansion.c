@@ -1,0 +1,310 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Expansion: every combination of the settings' values, resolved, told apart by a hash, equal ones dropped. */
+#include "expansion.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_CASES = 1000000 };
+
+/* Parameters that advance together: one list, or a zip. */
+struct wheel {
+  size_t count, at;
+  struct gx_setting *setting; /* one of them */
+};
+
+/* One entry of `cases` over the base. */
+struct combination {
+  struct gx_setting *held[GX_PARAMETERS]; /* NULL: default */
+  int wheel_of[GX_PARAMETERS];            /* -1: constant */
+  struct wheel wheel[GX_PARAMETERS];      /* slowest first */
+  int wheels;
+};
+
+struct expansion {
+  struct gx_settings *settings;
+  struct gx_study *study;
+  struct gx_value standard[GX_PARAMETERS];
+  struct gx_setting *held[GX_PARAMETERS]; /* first setting that a case holds */
+  bool applied[GX_PARAMETERS];            /* in a case that holds a setting */
+  struct {
+    double real;
+    char text[32];
+  } printed[GX_PARAMETERS]; /* reals as last hashed: printing them would be most of the work */
+  uint64_t *hash;           /* [room] of each case */
+  size_t room;
+  size_t *slot; /* [slots] hash table of case indices + 1 */
+  size_t slots;
+};
+
+static bool is_later(struct gx_place a, struct gx_place b)
+{
+  if (a.set != b.set) return a.set > b.set;
+  return a.line != b.line ? a.line > b.line : a.column > b.column;
+}
+
+/* The later of the two changed what the other expects. */
+static void report_zip(struct gx_errors *errors, struct gx_setting *a, struct gx_setting *b)
+{
+  struct gx_setting *late = is_later(a->place, b->place) ? a : b, *early = late == a ? b : a;
+  if (a->bad || b->bad) return;
+  gx_errors_add(errors, late->place, "zip: %s has %zu values here, but %s has %zu; give equally many",
+                gx_parameters[late->id].path, late->count, gx_parameters[early->id].path, early->count);
+  late->bad = true;
+}
+
+/* Lists become wheels, in the order in which the file names them; those of a zip share one. */
+static void place_wheels(struct gx_settings *settings, struct combination *combination)
+{
+  int wheel_of_zip[GX_PARAMETERS + 1] = {0}; /* number of the wheel + 1 */
+  for (size_t i = 0; i < settings->ordered; i++) {
+    enum gx_parameter_id id = settings->order[i];
+    struct gx_setting *setting = combination->held[id];
+    if (!setting || !setting->listed) continue;
+    int with = settings->zip[id] ? wheel_of_zip[settings->zip[id]] - 1 : -1;
+    struct wheel *wheel = with < 0 ? NULL : &combination->wheel[with];
+    if (wheel && wheel->count != setting->count) {
+      report_zip(settings->errors, wheel->setting, setting);
+      wheel = NULL;
+    }
+    if (!wheel) {
+      with = combination->wheels++;
+      combination->wheel[with] = (struct wheel){.count = setting->count, .setting = setting};
+      wheel_of_zip[settings->zip[id]] = with + 1;
+    }
+    combination->wheel_of[id] = with;
+  }
+}
+
+static void combine(struct gx_settings *settings, const struct gx_layer *layer, struct combination *combination)
+{
+  *combination = (struct combination){.wheels = 0};
+  for (struct gx_setting *setting = settings->base.first; setting; setting = setting->next)
+    combination->held[setting->id] = setting;
+  for (struct gx_setting *setting = layer->first; setting; setting = setting->next) {
+    int rival = gx_setting_rival(setting->id);
+    if (rival >= 0) combination->held[rival] = NULL;
+    combination->held[setting->id] = setting;
+  }
+  for (int id = 0; id < GX_PARAMETERS; id++) {
+    combination->wheel_of[id] = -1;
+    if (combination->held[id] && !combination->held[id]->count) combination->held[id] = NULL;
+  }
+  place_wheels(settings, combination);
+}
+
+static bool turn(struct combination *combination)
+{
+  for (int w = combination->wheels - 1; w >= 0; w--) {
+    struct wheel *wheel = &combination->wheel[w];
+    if (++wheel->at < wheel->count) return true;
+    wheel->at = 0;
+  }
+  return false;
+}
+
+static struct gx_item *item_of(const struct combination *combination, int id)
+{
+  int wheel = combination->wheel_of[id];
+  return &combination->held[id]->item[wheel < 0 ? 0 : combination->wheel[wheel].at];
+}
+
+static uint64_t hash_text(uint64_t hash, const char *text)
+{
+  for (; *text; text++) hash = (hash ^ (unsigned char)*text) * UINT64_C(0x100000001b3);
+  return hash;
+}
+
+/* FNV-1a of the lines "path=value", null values left out. */
+static uint64_t hash_case(struct expansion *expansion, const struct gx_value *value)
+{
+  uint64_t hash = UINT64_C(0xcbf29ce484222325);
+  for (int id = 0; id < GX_PARAMETERS; id++) {
+    char integer[32];
+    const char *text = NULL;
+    switch (value[id].type) {
+    case GX_NULL:
+      continue;
+    case GX_INTEGER:
+      snprintf(integer, sizeof integer, "%ld", value[id].integer);
+      text = integer;
+      break;
+    case GX_REAL:
+      if (!*expansion->printed[id].text || expansion->printed[id].real != value[id].real)
+        snprintf(expansion->printed[id].text, sizeof expansion->printed[id].text, "%.17g", value[id].real);
+      expansion->printed[id].real = value[id].real;
+      text = expansion->printed[id].text;
+      break;
+    case GX_TEXT:
+      text = value[id].text;
+      break;
+    }
+    hash = hash_text(hash, gx_parameters[id].path);
+    hash = hash_text(hash, "=");
+    hash = hash_text(hash, text);
+    hash = hash_text(hash, "\n");
+  }
+  return hash;
+}
+
+static bool same_value(struct gx_value a, struct gx_value b)
+{
+  if (a.type != b.type) return false;
+  switch (a.type) {
+  case GX_INTEGER:
+    return a.integer == b.integer;
+  case GX_REAL:
+    return a.real == b.real;
+  case GX_TEXT:
+    return a.text == b.text || !strcmp(a.text, b.text);
+  default:
+    return true;
+  }
+}
+
+static bool same_case(const struct gx_value *a, const struct gx_value *b)
+{
+  for (int id = 0; id < GX_PARAMETERS; id++)
+    if (!same_value(a[id], b[id])) return false;
+  return true;
+}
+
+static bool grow(struct expansion *expansion)
+{
+  struct gx_study *study = expansion->study;
+  size_t room = expansion->room ? 2 * expansion->room : 64, slots = 4 * room;
+  struct gx_case *cases = realloc(study->cases, room * sizeof *cases);
+  if (cases) study->cases = cases;
+  uint64_t *hash = realloc(expansion->hash, room * sizeof *hash);
+  if (hash) expansion->hash = hash;
+  size_t *slot = calloc(slots, sizeof *slot);
+  if (!cases || !hash || !slot) {
+    free(slot);
+    return false;
+  }
+  for (size_t i = 0; i < study->count; i++) {
+    size_t s = (size_t)hash[i] & (slots - 1);
+    while (slot[s]) s = (s + 1) & (slots - 1);
+    slot[s] = i + 1;
+  }
+  free(expansion->slot);
+  expansion->slot = slot;
+  expansion->slots = slots;
+  expansion->room = room;
+  return true;
+}
+
+static bool keep(struct expansion *expansion, const struct gx_value *value)
+{
+  struct gx_study *study = expansion->study;
+  if (study->count == expansion->room && !grow(expansion)) return false;
+  uint64_t hash = hash_case(expansion, value);
+  size_t s = (size_t)hash & (expansion->slots - 1);
+  for (; expansion->slot[s]; s = (s + 1) & (expansion->slots - 1)) {
+    size_t i = expansion->slot[s] - 1;
+    if (expansion->hash[i] == hash && same_case(study->cases[i].value, value)) {
+      study->duplicates++;
+      return true;
+    }
+  }
+  struct gx_case *one = &study->cases[study->count];
+  snprintf(one->id, sizeof one->id, "%016" PRIx64, hash);
+  memcpy(one->value, value, sizeof one->value);
+  expansion->hash[study->count] = hash;
+  expansion->slot[s] = ++study->count;
+  return true;
+}
+
+/* Resolves and keeps the case that the wheels stand at. */
+static bool take_case(struct expansion *expansion, const struct combination *combination)
+{
+  struct gx_value value[GX_PARAMETERS];
+  memcpy(value, expansion->standard, sizeof value);
+  for (int id = 0; id < GX_PARAMETERS; id++)
+    if (combination->held[id]) value[id] = item_of(combination, id)->value;
+  gx_parameter_resolve(value);
+  for (int id = 0; id < GX_PARAMETERS; id++) {
+    if (!combination->held[id]) continue;
+    if (!expansion->held[id]) expansion->held[id] = combination->held[id];
+    if (value[id].type != GX_NULL) expansion->applied[id] = true;
+  }
+  for (int id = 0; id < GX_PARAMETERS; id++) {
+    char objection[GX_OBJECTION_LENGTH];
+    if (!combination->held[id] || gx_parameter_fits((enum gx_parameter_id)id, value, objection)) continue;
+    struct gx_item *item = item_of(combination, id);
+    if (!item->refused) gx_errors_add(expansion->settings->errors, item->place, "%s: %s", gx_parameters[id].path, objection);
+    item->refused = true;
+    return true;
+  }
+  return keep(expansion, value);
+}
+
+static void find_axes(const struct gx_settings *settings, struct gx_study *study)
+{
+  for (size_t i = 0; i < settings->ordered; i++) {
+    enum gx_parameter_id id = settings->order[i];
+    size_t same = 1;
+    if (!settings->varied[id]) continue;
+    while (same < study->count && same_value(study->cases[0].value[id], study->cases[same].value[id])) same++;
+    if (same < study->count) study->axis[study->axes++] = id;
+  }
+}
+
+/* Every case has a problem, as far as errors reported before let one tell. */
+static bool check_problem(struct gx_settings *settings)
+{
+  static const char message[] = "problem.name is required; 'gridcross list problems' names them";
+  bool complete = true;
+  if (gx_setting_find(&settings->base, GX_PROBLEM_NAME)) return true;
+  if (!settings->cases) {
+    if (!settings->name_excused) gx_errors_add(settings->errors, settings->base.place, message);
+    return false;
+  }
+  for (const struct gx_layer *layer = settings->cases; layer; layer = layer->next) {
+    if (gx_setting_find(layer, GX_PROBLEM_NAME)) continue;
+    if (!settings->name_excused) gx_errors_add(settings->errors, layer->place, message);
+    complete = false;
+  }
+  return complete;
+}
+
+static bool check_count(struct gx_settings *settings, const struct gx_layer *layers)
+{
+  double cases = 0;
+  struct gx_place place = {.line = 1, .column = 1};
+  for (const struct gx_layer *layer = layers; layer; layer = layer->next) {
+    struct combination combination;
+    double count = 1;
+    combine(settings, layer, &combination);
+    for (int w = 0; w < combination.wheels; w++) count *= (double)combination.wheel[w].count;
+    if (combination.wheels && cases <= MOST_CASES && cases + count > MOST_CASES) place = combination.wheel[0].setting->place;
+    cases += count;
+  }
+  if (cases > MOST_CASES)
+    gx_errors_add(settings->errors, place, "the lists multiply to %.15g cases; at most %d are allowed", cases, MOST_CASES);
+  return cases <= MOST_CASES;
+}
+
+void gx_expansion_run(struct gx_settings *settings)
+{
+  struct expansion expansion = {.settings = settings, .study = settings->study};
+  struct gx_errors *errors = settings->errors;
+  const struct gx_layer nothing = {.first = NULL}, *layers = settings->cases ? settings->cases : &nothing;
+  if (!check_problem(settings) || settings->uncertain || gx_errors_full(errors) || !check_count(settings, layers)) return;
+  for (int id = 0; id < GX_PARAMETERS; id++) expansion.standard[id] = gx_parameter_default((enum gx_parameter_id)id);
+  for (const struct gx_layer *layer = layers; layer && !errors->out_of_memory; layer = layer->next) {
+    struct combination combination;
+    combine(settings, layer, &combination);
+    do
+      if (!take_case(&expansion, &combination)) errors->out_of_memory = true;
+    while (!errors->out_of_memory && turn(&combination));
+  }
+  free(expansion.hash);
+  free(expansion.slot);
+  for (int id = 0; id < GX_PARAMETERS; id++)
+    if (expansion.held[id] && !expansion.applied[id] && !settings->incomplete)
+      gx_errors_add(errors, expansion.held[id]->place, "%s applies to no case; remove it (%s)", gx_parameters[id].path,
+                    gx_parameters[id].help);
+  find_axes(settings, settings->study);
+}

@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Results as tables: one row a case, and one row a sample of a case's history. The columns are a contract. */
+#include <gridcross/study.h>
+
+#include <math.h>
+
+static const struct {
+  const char *name, *unit;
+} quantities[GX_QUANTITIES] = {
+    [GX_DISPLACEMENT] = {"displacement", "m"}, [GX_VELOCITY] = {"velocity", "m/s"}, [GX_STRESS] = {"stress", "Pa"}};
+static const char *const norms[GX_NORMS] = {[GX_INF] = "inf", [GX_RMS] = "rms", [GX_L2N] = "l2n"};
+
+/* One statement a column serves three passes: counting columns (no table), naming them, and filling a row. */
+struct cursor {
+  struct gx_table *table;
+  bool naming;
+  size_t row, column;
+  int failed;
+};
+
+static void put(struct cursor *at, const char *name, const char *unit, enum gx_type type, struct gx_value value)
+{
+  if (at->table && at->naming) at->failed |= gx_table_column(at->table, at->column, name, unit, type);
+  if (at->table && !at->naming) at->failed |= gx_table_set(at->table, at->row, at->column, value);
+  at->column++;
+}
+
+static void put_text(struct cursor *at, const char *name, const char *text)
+{
+  put(at, name, "", GX_TEXT, text && *text ? (struct gx_value){.type = GX_TEXT, .text = text} : (struct gx_value){0});
+}
+
+static void put_real(struct cursor *at, const char *name, const char *unit, double real)
+{
+  put(at, name, unit, GX_REAL, isnan(real) ? (struct gx_value){0} : (struct gx_value){.type = GX_REAL, .real = real});
+}
+
+static void put_count(struct cursor *at, const char *name, double count)
+{
+  bool fits = fabs(count) < 9e18; /* false for NaN */
+  put(at, name, "", GX_INTEGER,
+      fits ? (struct gx_value){.type = GX_INTEGER, .integer = (long)count} : (struct gx_value){.type = GX_NULL});
+}
+
+static void put_errors(struct cursor *at, const char *prefix, const char *moment, const double error[GX_QUANTITIES][GX_NORMS],
+                       int quantity, bool valid)
+{
+  for (int n = 0; n < GX_NORMS; n++) {
+    char name[80];
+    snprintf(name, sizeof name, "%s%s%s.%s", prefix, quantities[quantity].name, moment, norms[n]);
+    put_real(at, name, quantities[quantity].unit, valid ? error[quantity][n] : NAN);
+  }
+}
+
+static void put_case(struct cursor *at, const struct gx_case *one, const struct gx_result *result, bool timing)
+{
+  enum gx_status status = result->outcome.status;
+  const struct gx_measured *measured = &result->measured;
+  bool ran = status != GX_REFUSED, ok = status == GX_OK;
+  put_text(at, "case", one->id);
+  for (int p = 0; p < GX_PARAMETERS; p++)
+    put(at, gx_parameters[p].path, gx_parameters[p].unit, gx_parameters[p].type, one->value[p]);
+  put_text(at, "result.status", gx_status_name(status));
+  put_text(at, "result.reason", ok ? "" : result->outcome.reason);
+  put_count(at, "result.particle", ok || result->outcome.particle < 0 ? NAN : (double)result->outcome.particle);
+  put_real(at, "result.dt", "s", ran ? result->dt : NAN);
+  put_count(at, "result.steps", ran ? result->steps : NAN);
+  put_real(at, "result.time", "s", ran ? result->time : NAN);
+  put_count(at, "result.crossings", ran ? measured->last.crossings : NAN);
+  for (int q = 0; q < GX_QUANTITIES; q++) {
+    put_errors(at, "result.", ".final", measured->last.error, q, ok);
+    put_errors(at, "result.", ".max", measured->max_error, q, ok);
+  }
+  put_real(at, "result.energy.defect", "J", ok ? measured->max_defect : NAN);
+  put_real(at, "result.energy.drift", "", ok ? measured->drift : NAN);
+  for (int q = 0; q < GX_QUANTITIES; q++) put_errors(at, "result.", ".reference", result->reference, q, ok);
+  if (!timing) return;
+  put_real(at, "result.seconds", "s", ran ? result->seconds : NAN);
+  put_real(at, "result.ns_per_particle_step", "ns", ran ? result->ns_per_particle_step : NAN);
+}
+
+static void put_sample(struct cursor *at, const struct gx_sample *sample)
+{
+  put_real(at, "time", "s", sample->time);
+  for (int q = 0; q < GX_QUANTITIES; q++) put_errors(at, "", "", sample->error, q, true);
+  put_real(at, "energy.kinetic", "J", sample->kinetic);
+  put_real(at, "energy.kinetic_nodes", "J", sample->kinetic_nodes);
+  put_real(at, "energy.elastic", "J", sample->elastic);
+  put_real(at, "energy.work", "J", sample->work);
+  put_real(at, "energy.defect", "J", sample->defect);
+  put_real(at, "crossings", "", sample->crossings);
+}
+
+static struct gx_table *finish(struct cursor *at)
+{
+  if (!at->failed) return at->table;
+  gx_table_free(at->table);
+  return NULL;
+}
+
+struct gx_table *gx_study_table(const struct gx_study *study, const struct gx_result *results, bool timing)
+{
+  static const struct gx_case no_case;
+  static const struct gx_result no_result;
+  struct cursor at = {0};
+  put_case(&at, &no_case, &no_result, timing);
+  at = (struct cursor){.table = gx_table_create(at.column, study->count), .naming = true};
+  if (!at.table) return NULL;
+  put_case(&at, &no_case, &no_result, timing);
+  at.naming = false;
+  for (at.row = 0; at.row < study->count; at.row++) {
+    at.column = 0;
+    put_case(&at, &study->cases[at.row], &results[at.row], timing);
+  }
+  return finish(&at);
+}
+
+struct gx_table *gx_study_table_history(const struct gx_result *result)
+{
+  static const struct gx_sample no_sample;
+  struct cursor at = {0};
+  put_sample(&at, &no_sample);
+  at = (struct cursor){.table = gx_table_create(at.column, result->history.samples), .naming = true};
+  if (!at.table) return NULL;
+  put_sample(&at, &no_sample);
+  at.naming = false;
+  for (at.row = 0; at.row < result->history.samples; at.row++) {
+    at.column = 0;
+    put_sample(&at, &result->history.sample[at.row]);
+  }
+  return finish(&at);
+}

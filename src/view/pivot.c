@@ -1,0 +1,293 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Joins studies, chooses axes and places each case in its cell. */
+#include "pivot.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../core/nearest.h"
+#include "axes.h"
+#include "sheet.h"
+
+/* Axes along which an error has an order, and whether they refine upwards. */
+static const struct {
+  const char *path;
+  bool upwards;
+} refining[] = {{"mesh.cells", true}, {"time.dt", false}, {"time.cfl", false}};
+
+/* Where every case has a value of them. */
+static const char *const preferred_rows[] = {"mesh.cells", "time.dt", "time.cfl", "method.degree"};
+
+static int no_memory(FILE *errors)
+{
+  fputs("compare: out of memory\n", errors);
+  return -1;
+}
+
+static size_t count_columns(const struct gx_comparison *comparison)
+{
+  size_t count = 0;
+  for (size_t s = 0; s < comparison->studies; s++)
+    for (size_t c = 0; c < comparison->table[s]->columns; c++) {
+      bool known = false;
+      for (size_t before = 0; before < s && !known; before++)
+        known = gx_table_find(comparison->table[before], comparison->table[s]->column[c].name) >= 0;
+      count += !known;
+    }
+  return count;
+}
+
+/* Columns of every study by name, in the order of the first that has them, then `study`: the last, so that it is an axis only
+ * where parameters do not tell two cases apart. */
+static struct gx_table *join(const struct gx_comparison *comparison)
+{
+  size_t rows = 0, columns = 0, at = 0, study = count_columns(comparison);
+  for (size_t s = 0; s < comparison->studies; s++) rows += comparison->table[s]->rows;
+  struct gx_table *joined = gx_table_create(study + 1, rows);
+  int failed = !joined || gx_table_column(joined, study, "study", "", GX_TEXT);
+  for (size_t s = 0; s < comparison->studies && !failed; s++) {
+    const struct gx_table *table = comparison->table[s];
+    for (size_t c = 0; c < table->columns && !failed; c++) {
+      const struct gx_column *column = &table->column[c];
+      long to = gx_table_find(joined, column->name);
+      if (to < 0) {
+        to = (long)columns++;
+        failed = gx_table_column(joined, (size_t)to, column->name, column->unit, column->type);
+      }
+      for (size_t r = 0; r < table->rows && !failed; r++)
+        failed = gx_table_set(joined, at + r, (size_t)to, gx_table_get(table, r, c));
+    }
+    struct gx_value name = {.type = GX_TEXT, .text = comparison->name[s]};
+    for (size_t r = 0; r < table->rows && !failed; r++) failed = gx_table_set(joined, at + r, study, name);
+    at += table->rows;
+  }
+  if (!failed) return joined;
+  gx_table_free(joined);
+  return NULL;
+}
+
+static bool among(size_t column, size_t count, const size_t *list)
+{
+  for (size_t i = 0; i < count; i++)
+    if (list[i] == column) return true;
+  return false;
+}
+
+static bool varies(const struct gx_table *table, size_t column)
+{
+  for (size_t r = 1; r < table->rows; r++)
+    if (gx_value_compare(gx_table_get(table, 0, column), gx_table_get(table, r, column))) return true;
+  return false;
+}
+
+static void name_candidates(const struct gx_table *table, const char *name, bool parameter, FILE *errors)
+{
+  struct gx_nearest near = {.word = name};
+  const char *meant = NULL;
+  for (size_t c = 0; c < table->columns; c++) {
+    const char *column = table->column[c].name;
+    size_t n = strlen(name), m = strlen(column);
+    if (parameter && !gx_axes_parameter(table, c)) continue;
+    gx_nearest_try(&near, column);
+    bool tail = n && m > n && column[m - n - 1] == '.' && !strcmp(column + m - n, name);
+    if (tail) meant = column;
+  }
+  if (!meant && *near.best) meant = near.best;
+  if (meant) fprintf(errors, ": did you mean %s?", meant);
+  const char *gap = "; what varies here: ";
+  for (size_t c = 0; c < table->columns && parameter; c++)
+    if (gx_axes_parameter(table, c) && varies(table, c)) {
+      fprintf(errors, "%s%s", gap, table->column[c].name);
+      gap = ", ";
+    }
+}
+
+/* Column of a parameter (or of any column), or -1 after a message. */
+static long find(const struct gx_table *table, const char *name, bool parameter, FILE *errors)
+{
+  long c = gx_table_find(table, name);
+  if (c >= 0 && (!parameter || gx_axes_parameter(table, (size_t)c))) return c;
+  fprintf(errors, "compare: no %s '%s'", parameter ? "parameter" : "column", name);
+  name_candidates(table, name, parameter, errors);
+  putc('\n', errors);
+  return -1;
+}
+
+static bool has_null(const struct gx_table *table, size_t column)
+{
+  for (size_t r = 0; r < table->rows; r++)
+    if (gx_table_get(table, r, column).type == GX_NULL) return true;
+  return false;
+}
+
+static size_t default_rows(const struct gx_pivot *pivot)
+{
+  const struct gx_table *table = pivot->table;
+  for (size_t i = 0; i < sizeof preferred_rows / sizeof *preferred_rows; i++) {
+    long c = gx_table_find(table, preferred_rows[i]);
+    if (c < 0 || !varies(table, (size_t)c) || among((size_t)c, pivot->axes, pivot->axis)) continue;
+    if (!has_null(table, (size_t)c)) return (size_t)c;
+  }
+  for (size_t c = 0; c < table->columns; c++)
+    if (gx_axes_parameter(table, c) && varies(table, c) && !among(c, pivot->axes, pivot->axis)) return c;
+  long c = gx_table_find(table, preferred_rows[0]);
+  return c >= 0 && !among((size_t)c, pivot->axes, pivot->axis) ? (size_t)c : table->columns - 1;
+}
+
+/* Every axis that is left, or an error where the user's columns leave one. axis has room for every column. */
+static int fill_axes(struct gx_pivot *pivot, const struct gx_comparison *comparison, FILE *errors)
+{
+  size_t *all = calloc(pivot->table->columns + 1, sizeof *all);
+  if (!all) return no_memory(errors);
+  all[0] = pivot->row_axis;
+  memcpy(all + 1, pivot->axis, pivot->axes * sizeof *all);
+  long count = gx_axes_find(pivot->table, pivot->axes + 1, all);
+  int failed = count < 0 ? no_memory(errors) : 0;
+  size_t known = pivot->axes + 1;
+  if (!failed && comparison->columns && (size_t)count > known) {
+    const char *left = pivot->table->column[all[known]].name;
+    fprintf(errors, "compare: %s varies too: add --columns %s, or leave out --columns\n", left, left);
+    failed = -1;
+  }
+  for (size_t i = known; !failed && i < (size_t)count; i++) pivot->axis[pivot->axes++] = all[i];
+  free(all);
+  return failed;
+}
+
+static int choose_axes(struct gx_pivot *pivot, const struct gx_comparison *comparison, FILE *errors)
+{
+  for (size_t i = 0; i < comparison->columns; i++) {
+    long c = find(pivot->table, comparison->column[i], true, errors);
+    if (c < 0) return -1;
+    if (!among((size_t)c, pivot->axes, pivot->axis)) pivot->axis[pivot->axes++] = (size_t)c;
+  }
+  long rows = comparison->rows ? find(pivot->table, comparison->rows, true, errors) : (long)default_rows(pivot);
+  if (rows < 0) return -1;
+  pivot->row_axis = (size_t)rows;
+  if (among(pivot->row_axis, pivot->axes, pivot->axis)) {
+    fprintf(errors, "compare: %s cannot be both rows and columns\n", pivot->table->column[rows].name);
+    return -1;
+  }
+  return fill_axes(pivot, comparison, errors);
+}
+
+static int choose_values(struct gx_pivot *pivot, const struct gx_comparison *comparison, FILE *errors)
+{
+  static const char *const standard[] = {"result.displacement.max.rms"};
+  pivot->values = comparison->values ? comparison->values : 1;
+  const char *const *name = comparison->values ? comparison->value : standard;
+  pivot->value = calloc(pivot->values, sizeof *pivot->value);
+  if (!pivot->value) return no_memory(errors);
+  for (size_t v = 0; v < pivot->values; v++) {
+    long c = find(pivot->table, name[v], false, errors);
+    if (c < 0) return -1;
+    pivot->value[v] = (size_t)c;
+  }
+  return 0;
+}
+
+/* Rows are ordered so that refinement goes down the page. */
+static bool descends(const struct gx_pivot *pivot)
+{
+  for (size_t i = 0; i < sizeof refining / sizeof *refining; i++)
+    if (!strcmp(refining[i].path, pivot->table->column[pivot->row_axis].name)) return !refining[i].upwards;
+  return false;
+}
+
+/* scratch: [3][table->rows] */
+static int place(struct gx_pivot *pivot, size_t *scratch, FILE *errors)
+{
+  const struct gx_table *table = pivot->table;
+  size_t n = table->rows, *row = scratch, *column = scratch + n, *rank = scratch + 2 * n;
+  long rows = gx_axes_rank(table, pivot->row_axis, row), columns = n ? 1 : 0;
+  for (size_t i = 0; i < pivot->axes && columns >= 0; i++)
+    columns = gx_axes_rank(table, pivot->axis[i], rank) < 0 ? -1 : gx_axes_refine(n, column, rank);
+  if (rows < 0 || columns < 0) return no_memory(errors);
+  pivot->rows = (size_t)rows;
+  pivot->columns = (size_t)columns;
+  pivot->row_sample = calloc(pivot->rows + 1, sizeof *pivot->row_sample);
+  pivot->column_sample = calloc(pivot->columns + 1, sizeof *pivot->column_sample);
+  pivot->cell = calloc(pivot->rows * pivot->columns + 1, sizeof *pivot->cell);
+  if (!pivot->row_sample || !pivot->column_sample || !pivot->cell) return no_memory(errors);
+  for (size_t i = 0; i < pivot->rows * pivot->columns; i++) pivot->cell[i] = -1;
+  bool down = descends(pivot);
+  for (size_t r = 0; r < n; r++) {
+    if (down) row[r] = pivot->rows - 1 - row[r];
+    pivot->row_sample[row[r]] = r;
+    pivot->column_sample[column[r]] = r;
+    long *cell = &pivot->cell[row[r] * pivot->columns + column[r]];
+    if (*cell >= 0) {
+      fputs("compare: a case is there twice: was a study named twice?\n", errors);
+      return -1;
+    }
+    *cell = (long)r;
+  }
+  return 0;
+}
+
+struct gx_pivot *gx_pivot_create(const struct gx_comparison *comparison, FILE *errors)
+{
+  struct gx_pivot *pivot = calloc(1, sizeof *pivot);
+  if (!pivot || !(pivot->table = join(comparison)) || !(pivot->axis = calloc(pivot->table->columns + 1, sizeof *pivot->axis))) {
+    no_memory(errors);
+    gx_pivot_free(pivot);
+    return NULL;
+  }
+  int failed = choose_axes(pivot, comparison, errors);
+  if (!failed) failed = choose_values(pivot, comparison, errors);
+  if (!failed) {
+    size_t *scratch = calloc(3 * pivot->table->rows + 1, sizeof *scratch);
+    failed = scratch ? place(pivot, scratch, errors) : no_memory(errors);
+    free(scratch);
+  }
+  if (!failed) return pivot;
+  gx_pivot_free(pivot);
+  return NULL;
+}
+
+void gx_pivot_free(struct gx_pivot *pivot)
+{
+  if (!pivot) return;
+  gx_table_free(pivot->table);
+  free(pivot->axis);
+  free(pivot->value);
+  free(pivot->row_sample);
+  free(pivot->column_sample);
+  free(pivot->cell);
+  free(pivot);
+}
+
+bool gx_pivot_ok(const struct gx_pivot *pivot, long table_row)
+{
+  long c = gx_table_find(pivot->table, "result.status");
+  if (c < 0 || table_row < 0) return table_row >= 0;
+  struct gx_value status = gx_table_get(pivot->table, (size_t)table_row, (size_t)c);
+  return status.type != GX_TEXT || !strcmp(status.text, "ok");
+}
+
+bool gx_pivot_ordered(const struct gx_pivot *pivot, size_t v)
+{
+  if (pivot->rows < 2 || !gx_sheet_error_like(pivot->table->column[pivot->value[v]].name)) return false;
+  for (size_t i = 0; i < sizeof refining / sizeof *refining; i++)
+    if (!strcmp(refining[i].path, pivot->table->column[pivot->row_axis].name)) return true;
+  return false;
+}
+
+static double number(const struct gx_table *table, long row, size_t column)
+{
+  struct gx_value value = gx_table_get(table, (size_t)row, column);
+  return value.type == GX_REAL ? value.real : value.type == GX_INTEGER ? (double)value.integer : NAN;
+}
+
+double gx_pivot_order(const struct gx_pivot *pivot, size_t v, size_t row, size_t column)
+{
+  long here = pivot->cell[row * pivot->columns + column], above = -1;
+  while (above < 0 && row > 0) above = pivot->cell[--row * pivot->columns + column];
+  if (!gx_pivot_ordered(pivot, v) || !gx_pivot_ok(pivot, here) || !gx_pivot_ok(pivot, above)) return NAN;
+  double e1 = number(pivot->table, above, pivot->value[v]), e2 = number(pivot->table, here, pivot->value[v]);
+  double h1 = number(pivot->table, above, pivot->row_axis), h2 = number(pivot->table, here, pivot->row_axis);
+  if (!(e1 > 0 && e2 > 0 && h1 > 0 && h2 > 0)) return NAN;
+  double order = log(e1 / e2) / log(h1 / h2);
+  return descends(pivot) ? order : -order;
+}

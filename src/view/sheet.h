@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tables for people: short numbers, aligned columns. */
+#ifndef GRIDCROSS_VIEW_SHEET_H
+#define GRIDCROSS_VIEW_SHEET_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+#include <gridcross/table.h>
+
+/* Errors and energies: quantities that have an order, printed as 1.23e-4. */
+bool gx_sheet_error_like(const char *column);
+/* Text of a value as its column is shown: parameters in full, results by 3 or 4 digits, null as "-".
+ * The answer is the buffer or the value's own text. */
+const char *gx_sheet_text(const char *column, struct gx_value value, char buffer[GX_NUMBER_LENGTH]);
+/* Characters that a terminal shows of UTF-8 text. */
+int gx_sheet_width(const char *text);
+/* Text filled with blanks to the width, at its left side when `right`. */
+void gx_sheet_pad(const char *text, int width, bool right, FILE *out);
+/* Columns of numbers are right-aligned; columns that hold nothing but null are left out. Returns 0, or -1 when
+ * memory runs out. */
+int gx_sheet_print(const struct gx_table *table, FILE *out);
+/* The last part of a dotted path. */
+const char *gx_sheet_leaf(const char *path);
+
+#endif

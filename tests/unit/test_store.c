@@ -1,0 +1,282 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* CSV, JSON, HDF5 and the study directory. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include <gridcross/store.h>
+
+#include "../near.h"
+
+enum { ROWS = 4 };
+
+static const struct gx_value example[ROWS][3] = {
+    {{.type = GX_TEXT, .text = "plain"}, {.type = GX_INTEGER, .integer = -3}, {.type = GX_REAL, .real = 0.1}},
+    {{.type = GX_TEXT, .text = "say \"hi\", now"}, {.type = GX_NULL}, {.type = GX_REAL, .real = 1.0 / 3}},
+    {{.type = GX_TEXT, .text = "two\nlines, h\xC3\xB6h\xC3\xB6 \\"},
+     {.type = GX_INTEGER, .integer = 9007199254740993},
+     {.type = GX_NULL}},
+    {{.type = GX_NULL}, {.type = GX_INTEGER, .integer = 0}, {.type = GX_REAL, .real = 1e-300}},
+};
+
+static struct gx_table *example_table(void)
+{
+  struct gx_table *table = gx_table_create(3, ROWS);
+  gx_table_column(table, 0, "z,word", "", GX_TEXT);
+  gx_table_column(table, 1, "count", "", GX_INTEGER);
+  gx_table_column(table, 2, "a.real", "m/s", GX_REAL);
+  for (size_t r = 0; r < ROWS; r++)
+    for (size_t c = 0; c < 3; c++) assert_int_equal(gx_table_set(table, r, c, example[r][c]), 0);
+  return table;
+}
+
+static void csv_quotes_and_leaves_null_empty(void **state)
+{
+  (void)state;
+  char *text;
+  size_t length;
+  FILE *out = open_memstream(&text, &length);
+  struct gx_table *table = example_table();
+  gx_csv_write(table, out);
+  fclose(out);
+  assert_string_equal(text, "\"z,word\",count,a.real\n"
+                            "plain,-3,0.1\n"
+                            "\"say \"\"hi\"\", now\",,0.3333333333333333\n"
+                            "\"two\nlines, h\xC3\xB6h\xC3\xB6 \\\",9007199254740993,\n"
+                            ",0,1e-300\n");
+  free(text);
+  gx_table_free(table);
+}
+
+static void json_escapes_and_says_null(void **state)
+{
+  (void)state;
+  char *text;
+  size_t length;
+  FILE *out = open_memstream(&text, &length);
+  struct gx_table *table = example_table();
+  gx_table_set(table, 3, 2, (struct gx_value){.type = GX_REAL, .real = INFINITY});
+  gx_table_set(table, 3, 0, (struct gx_value){.type = GX_TEXT, .text = "\x01"});
+  gx_json_write(table, out);
+  fclose(out);
+  assert_string_equal(text, "[\n {\"z,word\": \"plain\", \"count\": -3, \"a.real\": 0.1},\n"
+                            " {\"z,word\": \"say \\\"hi\\\", now\", \"count\": null, \"a.real\": 0.3333333333333333},\n"
+                            " {\"z,word\": \"two\\nlines, h\xC3\xB6h\xC3\xB6 \\\\\", \"count\": 9007199254740993, "
+                            "\"a.real\": null},\n"
+                            " {\"z,word\": \"\\u0001\", \"count\": 0, \"a.real\": null}\n]\n");
+  free(text);
+  gx_table_free(table);
+}
+
+/* A study of two cases, one with a history. */
+struct fixture {
+  char directory[64], path[128], other[128];
+  struct gx_case cases[2];
+  struct gx_sample samples[2];
+  struct gx_result results[2];
+  struct gx_study study;
+  char title[16], source[32];
+};
+
+static int set_up(void **state)
+{
+  struct fixture *f = calloc(1, sizeof *f);
+  strcpy(f->directory, "/tmp/gridcross-store-XXXXXX");
+  if (!mkdtemp(f->directory)) return -1;
+  snprintf(f->path, sizeof f->path, "%s/a.h5", f->directory);
+  snprintf(f->other, sizeof f->other, "%s/b.h5", f->directory);
+  strcpy(f->title, "a \xE2\x82\xAC title");
+  strcpy(f->source, "mesh: {cells: [1, 2]}\n");
+  strcpy(f->cases[0].id, "0123456789abcdef");
+  strcpy(f->cases[1].id, "fedcba9876543210");
+  f->cases[1].value[GX_MESH_CELLS] = (struct gx_value){.type = GX_INTEGER, .integer = 2};
+  f->samples[0] = (struct gx_sample){.time = 0.5, .defect = NAN};
+  f->samples[1] = (struct gx_sample){.time = 1, .error[GX_STRESS][GX_RMS] = 0.25, .kinetic = 3};
+  f->results[0].history = (struct gx_history){.samples = 2, .sample = f->samples};
+  f->results[0].seconds = 1.5;
+  f->results[0].ns_per_particle_step = 20.25;
+  f->study = (struct gx_study){.title = f->title, .source = f->source, .cases = f->cases, .count = 2};
+  *state = f;
+  return 0;
+}
+
+static int tear_down(void **state)
+{
+  struct fixture *f = *state;
+  char command[128];
+  snprintf(command, sizeof command, "rm -rf %s", f->directory);
+  int failed = system(command);
+  free(f);
+  return failed;
+}
+
+static char *contents(const char *path, size_t *length)
+{
+  FILE *in = fopen(path, "rb");
+  if (!in) return NULL;
+  fseek(in, 0, SEEK_END);
+  *length = (size_t)ftell(in);
+  rewind(in);
+  char *bytes = malloc(*length + 1);
+  assert_int_equal(fread(bytes, 1, *length, in), *length);
+  bytes[*length] = '\0';
+  fclose(in);
+  return bytes;
+}
+
+static void put(const char *path, const char *bytes, size_t length)
+{
+  FILE *out = fopen(path, "wb");
+  assert_int_equal(fwrite(bytes, 1, length, out), length);
+  fclose(out);
+}
+
+static void hdf5_gives_back_what_was_written(void **state)
+{
+  struct fixture *f = *state;
+  struct gx_table *table = example_table();
+  assert_int_equal(gx_hdf5_write(f->path, &f->study, f->results, table, stderr), 0);
+  struct gx_table *back = gx_hdf5_read(f->path, stderr);
+  assert_non_null(back);
+  assert_int_equal(back->rows, ROWS);
+  assert_int_equal(back->columns, 3);
+  for (size_t c = 0; c < 3; c++) {
+    assert_string_equal(back->column[c].name, table->column[c].name);
+    assert_string_equal(back->column[c].unit, table->column[c].unit);
+    assert_int_equal(back->column[c].type, table->column[c].type);
+    for (size_t r = 0; r < ROWS; r++) {
+      assert_int_equal(gx_table_get(back, r, c).type, example[r][c].type);
+      assert_int_equal(gx_value_compare(gx_table_get(back, r, c), example[r][c]), 0);
+    }
+  }
+  gx_table_free(back);
+  gx_table_free(table);
+}
+
+static void equal_studies_give_equal_bytes(void **state)
+{
+  struct fixture *f = *state;
+  struct gx_table *table = example_table();
+  assert_int_equal(gx_hdf5_write(f->path, &f->study, f->results, table, stderr), 0);
+  sleep(1); /* object times have a resolution of one second */
+  char *litter[64];
+  for (int i = 0; i < 64; i++) memset(litter[i] = malloc(4096), 0xA5, 4096);
+  for (int i = 0; i < 64; i++) free(litter[i]);
+  assert_int_equal(gx_hdf5_write(f->other, &f->study, f->results, table, stderr), 0);
+  size_t n, m;
+  char *a = contents(f->path, &n), *b = contents(f->other, &m);
+  assert_int_equal(n, m);
+  assert_memory_equal(a, b, n);
+  free(a);
+  free(b);
+  gx_table_free(table);
+}
+
+/* Reads a file that must be refused, with a message and nothing else on standard error. */
+static void refuse(const char *path)
+{
+  char *message;
+  size_t length;
+  FILE *errors = open_memstream(&message, &length), *seen = tmpfile();
+  int saved = dup(STDERR_FILENO);
+  dup2(fileno(seen), STDERR_FILENO);
+  struct gx_table *table = gx_hdf5_read(path, errors);
+  dup2(saved, STDERR_FILENO);
+  close(saved);
+  fclose(errors);
+  struct stat status;
+  fstat(fileno(seen), &status);
+  fclose(seen);
+  assert_null(table);
+  assert_int_equal(status.st_size, 0);
+  assert_int_equal(strncmp(message, path, strlen(path)), 0);
+  free(message);
+}
+
+static void damaged_files_are_refused(void **state)
+{
+  struct fixture *f = *state;
+  struct gx_table *table = example_table();
+  assert_int_equal(gx_hdf5_write(f->path, &f->study, f->results, table, stderr), 0);
+  gx_table_free(table);
+  size_t length;
+  char *bytes = contents(f->path, &length);
+  for (size_t keep = 0; keep < length; keep += length / 37 + 1) {
+    put(f->other, bytes, keep);
+    refuse(f->other);
+  }
+  free(bytes);
+  put(f->other, "case,mesh.cells\n", 16);
+  refuse(f->other);
+  refuse(f->directory);
+  refuse("/nowhere/study.h5");
+}
+
+static void a_study_is_stored_and_read_with_its_timing(void **state)
+{
+  struct fixture *f = *state;
+  char directory[128];
+  snprintf(directory, sizeof directory, "%s/new/study", f->directory);
+  struct gx_store_run run = {.command = "gridcross run 'a b'", .seconds = 2};
+  for (int twice = 0; twice < 2; twice++) {
+    assert_int_equal(gx_store_prepare(directory, stderr), 0);
+    assert_int_equal(gx_store_write(directory, &f->study, f->results, &run, stderr), 0);
+  }
+  struct gx_table *table = gx_store_read(directory, stderr);
+  assert_non_null(table);
+  NEAR(gx_table_get(table, 0, (size_t)gx_table_find(table, "result.seconds")).real, 1.5, 0);
+  NEAR(gx_table_get(table, 0, (size_t)gx_table_find(table, "result.ns_per_particle_step")).real, 20.25, 0);
+  assert_int_equal(gx_table_get(table, 1, (size_t)gx_table_find(table, "mesh.cells")).integer, 2);
+  gx_table_free(table);
+  char path[256];
+  size_t length;
+  snprintf(path, sizeof path, "%s/timing.csv", directory);
+  char *bytes = contents(path, &length);
+  assert_string_equal(bytes, "case,seconds,ns_per_particle_step\n0123456789abcdef,1.5,20.25\nfedcba9876543210,0,0\n");
+  free(bytes);
+  snprintf(path, sizeof path, "%s/run.json", directory);
+  bytes = contents(path, &length);
+  assert_non_null(strstr(bytes, "\"command\": \"gridcross run 'a b'\", \"seconds\": 2}"));
+  free(bytes);
+}
+
+static void only_studies_are_overwritten(void **state)
+{
+  struct fixture *f = *state;
+  FILE *quiet = tmpfile();
+  char path[256];
+  snprintf(path, sizeof path, "%s/.study.h5.partial", f->directory);
+  put(path, "", 0);
+  assert_int_equal(gx_store_prepare(f->directory, quiet), 0); /* what a kill leaves does no harm */
+  put(f->path, "mine", 4);
+  assert_int_equal(gx_store_prepare(f->directory, quiet), -1);
+  assert_int_equal(gx_store_prepare(f->path, quiet), -1);
+  snprintf(path, sizeof path, "%s/below", f->path);
+  assert_int_equal(gx_store_prepare(path, quiet), -1);
+  unlink(f->path);
+  snprintf(path, sizeof path, "%s/study.h5", f->directory);
+  put(path, "not ours", 8);
+  assert_int_equal(gx_store_prepare(f->directory, quiet), -1);
+  fclose(quiet);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(csv_quotes_and_leaves_null_empty),
+      cmocka_unit_test(json_escapes_and_says_null),
+      cmocka_unit_test_setup_teardown(hdf5_gives_back_what_was_written, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(equal_studies_give_equal_bytes, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(damaged_files_are_refused, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(a_study_is_stored_and_read_with_its_timing, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(only_studies_are_overwritten, set_up, tear_down),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
