@@ -137,6 +137,80 @@ static void a_wave_along_one_axis_is_the_bar(void **state)
   each_method(check_reduction);
 }
 
+static void shear(struct gx_particles *particles, void *context)
+{
+  (void)context;
+  for (int d = 0; d < particles->dim; d++)
+    for (size_t p = 0; p < particles->n; p++)
+      particles->v[d][p] = (d + 1) * 0.3 * sin(2 * M_PI * (particles->X[(d + 1) % particles->dim][p] + 0.1 * d));
+}
+
+/* Both grid spaces follow the same continuum through large shear: F and u agree but for the error of the grid. */
+static void spaces_agree_on_shear(void **state)
+{
+  (void)state;
+  for (int dim = 2; dim <= GX_MAX_DIM; dim++) {
+    struct rig rig[2];
+    for (int k = 0; k < 2; k++) {
+      struct gx_case one =
+          case_draft("problem.name=axis-aligned", "problem.amplitude=0", "problem.modulus=1", "problem.poisson=0.3",
+                     "time.dt=0.01", "time.end=0.2", "method.clock=rk4", "mesh.particles_per_cell=2");
+      case_set_integer(&one, GX_PROBLEM_DIMENSION, dim);
+      case_set_integer(&one, GX_MESH_CELLS, dim == 2 ? 24 : 12);
+      case_set(&one, GX_METHOD_SPACE, k ? "moving-mesh" : "standard");
+      gx_parameter_resolve(one.value);
+      rig_build(&rig[k], &one, NULL, shear, NULL);
+      rig_run(&rig[k], -1);
+    }
+    const struct gx_particles *a = rig[0].simulation.particles, *b = rig[1].simulation.particles;
+    double worst = 0, strain = 0;
+    for (size_t p = 0; p < a->n; p++)
+      for (int k = 0; k < dim * dim; k++) {
+        worst = fmax(worst, fabs(a->F[k][p] - b->F[k][p]));
+        strain = fmax(strain, fabs(b->F[k][p] - (k % (dim + 1) == 0)));
+      }
+    CHECK(strain > 0.3, "%g", strain);
+    CHECK(worst < 0.06 * strain, "%d-D: F differs by %g of %g", dim, worst, strain);
+    for (int k = 0; k < 2; k++) rig_free(&rig[k]);
+  }
+}
+
+static void shear_deformed(struct gx_particles *particles, void *context)
+{
+  const double *F = context;
+  shear(particles, NULL);
+  for (int k = 0; k < 9; k++)
+    for (size_t p = 0; p < particles->n; p++) particles->F[k][p] = F[k];
+}
+
+/* dF/dt = L F, in this order: the rate at F = I is L. */
+static void gradients_multiply_from_the_left(void **state)
+{
+  (void)state;
+  double F[] = {1.1, 0.3, 0.2, -0.1, 0.9, 0.4, 0.5, 0, 1.2}, identity[] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  struct gx_case one = case_of("problem.name=axis-aligned", "problem.amplitude=0", "problem.modulus=1", "problem.dimension=3",
+                               "method.clock=rk4", "mesh.particles_per_cell=1", "mesh.cells=4", "method.space=standard");
+  double *rate[2][GX_MAX_STATE];
+  struct gx_state view;
+  for (int k = 0; k < 2; k++) {
+    struct rig rig;
+    rig_build(&rig, &one, NULL, shear_deformed, k ? F : identity);
+    assert_int_equal(gx_stepper_accelerate(rig.stepper, 0), GX_OK);
+    rig.simulation.kind->state(rig.simulation.space, &view);
+    for (int i = 0; i < view.count; i++) rate[k][i] = calloc(view.length[i], sizeof(double));
+    rig.simulation.kind->rates(rig.simulation.space, rate[k]);
+    rig_free(&rig);
+  }
+  for (size_t p = 0; p < view.length[6]; p++) /* the state is u, v, F */
+    for (int i = 0; i < 3; i++)
+      for (int j = 0; j < 3; j++) {
+        double product = 0;
+        for (int k = 0; k < 3; k++) product += rate[0][6 + 3 * i + k][p] * F[3 * k + j];
+        NEAR(rate[1][6 + 3 * i + j][p], product, 1e-13);
+      }
+  for (int i = 0; i < 2 * view.count; i++) free(rate[i % 2][i / 2]);
+}
+
 /* Failures are recorded results that name the particle or the reason, and other cases go on. */
 static void failures_are_results(void **state)
 {
@@ -178,6 +252,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_method_ends_well),         cmocka_unit_test(measuring_more_changes_nothing),
       cmocka_unit_test(repetition_gives_the_same_bits), cmocka_unit_test(a_wave_along_one_axis_is_the_bar),
+      cmocka_unit_test(spaces_agree_on_shear),          cmocka_unit_test(gradients_multiply_from_the_left),
       cmocka_unit_test(failures_are_results),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
