@@ -113,14 +113,14 @@ GX_CLONES void gx_transfer_scatter(const struct gx_weights *weights, const doubl
     SPECIALISE(scatter, weights, m, value, NULL, moment);
 }
 
-GX_CORE void scatter_force(const int dim, const int s, const struct gx_weights *w, double *const *T, const double *m,
-                           double *const *b, double *const *force)
+GX_CORE void scatter_force(const int dim, const int s, const struct gx_weights *w, double *const *T, double *const *body,
+                           double *const *force)
 {
   double *out[GX_MAX_DIM];
-  const double *stress[GX_MAX_TENSOR], *body[GX_MAX_DIM];
+  const double *stress[GX_MAX_TENSOR], *in[GX_MAX_DIM];
   for (int d = 0; d < dim; d++) {
     out[d] = force[d];
-    body[d] = b ? b[d] : NULL;
+    in[d] = body ? body[d] : NULL;
   }
   for (int k = 0; k < dim * dim; k++) stress[k] = T[k];
   FOR_PARTICLES(dim, w->n, p)
@@ -128,7 +128,7 @@ GX_CORE void scatter_force(const int dim, const int s, const struct gx_weights *
     struct stencil stencil;
     load_stencil(dim, s, w, p, true, &stencil);
     double load[GX_MAX_DIM], t[GX_MAX_TENSOR];
-    for (int d = 0; d < dim; d++) load[d] = b ? m[p] * body[d][p] : 0;
+    for (int d = 0; d < dim; d++) load[d] = body ? in[d][p] : 0;
     for (int k = 0; k < dim * dim; k++) t[k] = stress[k][p];
     FOR_ROWS(dim, s)
     {
@@ -138,20 +138,20 @@ GX_CORE void scatter_force(const int dim, const int s, const struct gx_weights *
         for (int e = 1; e < dim; e++) across += t[d * dim + e] * row.slope[e];
         for (int k = 0; k < s; k++) {
           double f = along * stencil.D[0][k];
-          out[d][row.node + (size_t)k] += b || dim > 1 ? f + across * stencil.S[0][k] : f;
+          out[d][row.node + (size_t)k] += body || dim > 1 ? f + across * stencil.S[0][k] : f;
         }
       }
     }
   }
 }
 
-GX_CLONES void gx_transfer_scatter_force(const struct gx_weights *weights, double *const *T, const double *m, double *const *b,
+GX_CLONES void gx_transfer_scatter_force(const struct gx_weights *weights, double *const *T, double *const *body,
                                          double *const *force)
 {
-  if (b)
-    SPECIALISE(scatter_force, weights, T, m, b, force);
+  if (body)
+    SPECIALISE(scatter_force, weights, T, body, force);
   else
-    SPECIALISE(scatter_force, weights, T, m, NULL, force);
+    SPECIALISE(scatter_force, weights, T, NULL, force);
 }
 
 /* take_a: acceleration: S-sums of a; take_v: velocity: S-sums of v; take_slopes: gradient: D-sums of v. */
