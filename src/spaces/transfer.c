@@ -32,13 +32,14 @@ GX_CORE void load_stencil(const int dim, const int s, const struct gx_weights *w
   }
 }
 
-GX_CORE struct row row_of(const int dim, const struct gx_weights *w, const struct stencil *stencil, int k1, int k2)
+GX_CORE struct row row_of(const int dim, const struct gx_weights *w, const struct stencil *stencil, int k1, int k2,
+                          const bool slopes)
 {
   const int k[GX_MAX_DIM] = {0, k1, k2};
   struct row row = {.node = stencil->first, .W = 1, .slope = {1, 1, 1}};
   for (int d = 1; d < dim; d++) {
     row.node += (size_t)k[d] * w->stride[d];
-    for (int e = 1; e < dim; e++) row.slope[e] *= (e == d ? stencil->D : stencil->S)[d][k[d]];
+    for (int e = 1; slopes && e < dim; e++) row.slope[e] *= (e == d ? stencil->D : stencil->S)[d][k[d]];
     row.W *= stencil->S[d][k[d]];
   }
   return row;
@@ -94,7 +95,7 @@ GX_CORE void scatter(const int dim, const int s, const struct gx_weights *w, con
     for (int d = 0; d < dim; d++) momentum[d] = mass * in[d][p];
     FOR_ROWS(dim, s)
     {
-      const struct row row = row_of(dim, w, &stencil, k1, k2);
+      const struct row row = row_of(dim, w, &stencil, k1, k2, false);
       for (int k = 0; total && k < s; k++) total[row.node + (size_t)k] += mass * row.W * stencil.S[0][k];
       for (int d = 0; value && d < dim; d++)
         for (int k = 0; k < s; k++) out[d][row.node + (size_t)k] += momentum[d] * row.W * stencil.S[0][k];
@@ -132,7 +133,7 @@ GX_CORE void scatter_force(const int dim, const int s, const struct gx_weights *
     for (int k = 0; k < dim * dim; k++) t[k] = stress[k][p];
     FOR_ROWS(dim, s)
     {
-      const struct row row = row_of(dim, w, &stencil, k1, k2);
+      const struct row row = row_of(dim, w, &stencil, k1, k2, true);
       for (int d = 0; d < dim; d++) {
         double along = t[d * dim] * row.W, across = load[d] * row.W;
         for (int e = 1; e < dim; e++) across += t[d * dim + e] * row.slope[e];
@@ -174,7 +175,7 @@ GX_CORE void gather(const int dim, const int s, const struct gx_weights *w, cons
     double sum_a[GX_MAX_DIM] = {0}, sum_v[GX_MAX_DIM] = {0}, sum_g[GX_MAX_TENSOR] = {0};
     FOR_ROWS(dim, s)
     {
-      const struct row row = row_of(dim, w, &stencil, k1, k2);
+      const struct row row = row_of(dim, w, &stencil, k1, k2, take_slopes);
       for (int d = 0; d < dim; d++) {
         double row_a = 0, row_v = 0, row_g = 0;
         for (int k = 0; k < s; k++) {
