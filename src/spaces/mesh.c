@@ -116,11 +116,14 @@ GX_CLONES static bool move(size_t n, const double *restrict X, const double *res
   return !outside;
 }
 
-static enum gx_status report_outside(struct gx_mesh *mesh, int d, double limit)
+/* Farther than this, positions on a periodic grid mean nothing; past a fixed end, more than this is not round-off. */
+static const double far = 1e6, edge = 1e-12;
+
+static enum gx_status report_outside(struct gx_mesh *mesh, int d)
 {
   const double *x = mesh->x[d];
   size_t p = 0;
-  while (mesh->grid.axis[d].periodic ? fabs(x[p]) <= limit : x[p] >= 0 && x[p] <= 1) p++;
+  while (mesh->grid.axis[d].periodic ? fabs(x[p]) <= far : x[p] >= -edge && x[p] <= 1 + edge) p++;
   if (mesh->grid.axis[d].periodic || !isfinite(x[p]))
     return gx_status_set(mesh->space.outcome, GX_UNSTABLE, (long)p, "the position of a particle is %g", x[p]);
   return gx_status_set(mesh->space.outcome, GX_LEFT_DOMAIN, (long)p, "a particle is at %.6g, outside the domain [0, 1]", x[p]);
@@ -140,13 +143,13 @@ static enum gx_status weigh(struct gx_mesh *mesh, double *const *u, double *cons
 {
   const struct gx_particles *particles = mesh->space.particles;
   const struct gx_basis *basis = mesh->options.basis;
-  const double far = 1e6;
   size_t n = particles->n;
   for (int d = 0; d < mesh->grid.dim; d++) {
     const struct gx_axis *axis = &mesh->grid.axis[d];
     const double *x = particles->X[d], *half = domains(mesh, d, F, frozen);
     if (u) {
-      if (!move(n, x, u[d], axis->periodic ? -far : 0, axis->periodic ? far : 1, mesh->x[d])) return report_outside(mesh, d, far);
+      if (!move(n, x, u[d], axis->periodic ? -far : -edge, axis->periodic ? far : 1 + edge, mesh->x[d]))
+        return report_outside(mesh, d);
       x = mesh->x[d];
     }
     long wide = basis->evaluate(axis, n, x, half, mesh->weights.first[d], mesh->weights.S[d], mesh->weights.D[d]);
