@@ -49,6 +49,7 @@ static size_t place_arrays(struct gx_mesh *mesh, double *block)
   PLACE(mesh->x, dim, n);
   PLACE(mesh->half, dim, n);
   PLACE(mesh->T, dim * dim, n);
+  PLACE(mesh->body, dim, n);
   PLACE(mesh->opened, dim, n);
   PLACE(mesh->opened_nodes, dim, nodes);
   PLACE(mesh->gathered_a, dim, n);
@@ -215,14 +216,22 @@ void gx_mesh_project(struct gx_mesh *mesh, double *const *value, double *const *
   solve_mass(mesh, field);
 }
 
+GX_CLONES static void multiply(size_t n, const double *restrict a, const double *restrict b, double *restrict product)
+{
+  for (size_t p = 0; p < n; p++) product[p] = a[p] * b[p];
+}
+
 void gx_mesh_accelerate(struct gx_mesh *mesh, double t)
 {
   struct gx_particles *particles = mesh->space.particles;
   const struct gx_posed *posed = mesh->space.posed;
   bool loaded = posed->problem->body;
   if (loaded) posed->problem->body(posed, t, particles->b);
-  for (int d = 0; d < mesh->grid.dim; d++) zero(mesh, mesh->a[d]);
-  gx_transfer_scatter_force(&mesh->weights, mesh->T, particles->m, loaded ? particles->b : NULL, mesh->a);
+  for (int d = 0; d < mesh->grid.dim; d++) {
+    zero(mesh, mesh->a[d]);
+    if (loaded) multiply(particles->n, particles->m, particles->b[d], mesh->body[d]);
+  }
+  gx_transfer_scatter_force(&mesh->weights, mesh->T, loaded ? mesh->body : NULL, mesh->a);
   solve_mass(mesh, mesh->a);
 }
 

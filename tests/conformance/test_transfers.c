@@ -144,16 +144,19 @@ static void check_adjoint(const struct setting *setting)
   uint64_t seed = 41;
   double **f = fields(dim, grid->stored), **moment = fields(dim, grid->stored), **force = fields(dim, grid->stored);
   double **q = fields(dim, N), **T = fields(dim * dim, N), **value = fields(dim, N), **gradient = fields(dim * dim, N);
-  double **v = fields(dim, N), **all = fields(dim * dim, N);
+  double **load = fields(dim, N), **v = fields(dim, N), **all = fields(dim * dim, N);
   for (int d = 0; d < dim; d++) {
     for (size_t i = 0; i < grid->stored; i++) f[d][i] = check_random(&seed, -1, 1);
     gx_grid_spread(grid, f[d]);
-    for (int p = 0; p < N; p++) q[d][p] = check_random(&seed, -1, 1);
+    for (int p = 0; p < N; p++) {
+      q[d][p] = check_random(&seed, -1, 1);
+      load[d][p] = m[p] * q[d][p];
+    }
   }
   for (int k = 0; k < dim * dim; k++)
     for (int p = 0; p < N; p++) T[k][p] = check_random(&seed, -1, 1);
   gx_transfer_scatter(weights, m, q, NULL, moment);
-  gx_transfer_scatter_force(weights, T, m, q, force);
+  gx_transfer_scatter_force(weights, T, load, force);
   gx_transfer_gather(weights, f, value);
   gx_transfer_gather_gradient(weights, f, gradient);
   double left = 0, right = 0, left_force = 0, right_force = 0;
@@ -176,6 +179,7 @@ static void check_adjoint(const struct setting *setting)
     for (int d = 0; d < dim; d++) NEAR(v[d][p], value[d][p], 0);
     for (int k = 0; k < dim * dim; k++) NEAR(all[k][p], gradient[k][p], 1e-13 * 11);
   }
+  fields_free(load, dim);
   double **nodal[] = {f, moment, force}, **vectors[] = {q, value, v}, **tensors[] = {T, gradient, all};
   for (int i = 0; i < 3; i++) {
     fields_free(nodal[i], dim);
