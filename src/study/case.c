@@ -50,7 +50,7 @@ static enum gx_status prepare(struct run *run, const struct gx_case *one, double
   run->level = level_of(one);
   run->history_every = (double)one->value[GX_OUTPUT_HISTORIES].integer;
   run->accumulate = one->value[GX_TIME_ACCUMULATE].text;
-  const int *cells = simulation->kind->fixed_grid ? simulation->space_options.cells : NULL;
+  const int *cells = simulation->space->through_cells ? simulation->space_options.cells : NULL;
   run->measure = gx_measure_create(simulation->space, simulation->clock, cells, run->level);
   if (!run->measure) return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the measures");
   struct gx_work_observer observer = gx_measure_work(run->measure);

@@ -58,6 +58,9 @@ CHOICE(transfer_choice, "flip", "pic")
 CHOICE(position_choice, "nodal", "particle")
 CHOICE(projection_choice, "each-step", "once")
 CHOICE(stress_choice, "F", "rate")
+CHOICE(frame_choice, "current", "reference")
+CHOICE(closure_choice, "papers", "symmetric")
+CHOICE(divergence_choice, "exact", "papers")
 CHOICE(landing_choice, "exact", "past")
 CHOICE(accumulate_choice, "product", "sum", "compensated")
 CHOICE(measures_choice, "final", "max", "all")
@@ -77,6 +80,27 @@ static bool is_continuum(const struct gx_value *value)
 static const struct gx_space_kind *space_of(const struct gx_value *value)
 {
   return value[GX_METHOD_SPACE].type == GX_TEXT ? gx_space_find(value[GX_METHOD_SPACE].text) : NULL;
+}
+
+static bool is_collocation(const struct gx_value *value)
+{
+  const struct gx_space_kind *space = space_of(value);
+  return is_continuum(value) && space && space->collocation;
+}
+
+static bool is_galerkin(const struct gx_value *value)
+{
+  return is_continuum(value) && !is_collocation(value);
+}
+
+static bool closure_applies(const struct gx_value *value)
+{
+  return is_collocation(value) && is_text(value[GX_PROBLEM_BOUNDARY], "fixed");
+}
+
+static bool divergence_applies(const struct gx_value *value)
+{
+  return is_collocation(value) && is_text(value[GX_METHOD_FRAME], "current");
 }
 
 static bool interpolation_error_applies(const struct gx_value *value)
@@ -101,6 +125,7 @@ static bool directions_apply(const struct gx_value *value)
 
 static bool degree_applies(const struct gx_value *value)
 {
+  if (is_collocation(value)) return true;
   return value[GX_METHOD_BASIS].type == GX_TEXT && gx_basis_find(value[GX_METHOD_BASIS].text)->has_degree;
 }
 
@@ -108,7 +133,7 @@ static bool degree_applies(const struct gx_value *value)
 static bool particles_move(const struct gx_value *value)
 {
   const struct gx_space_kind *space = space_of(value);
-  return space && (space->fixed_grid || !is_text(value[GX_METHOD_PROJECTION], "once"));
+  return space && !space->collocation && (space->fixed_grid || !is_text(value[GX_METHOD_PROJECTION], "once"));
 }
 
 static bool flip_applies(const struct gx_value *value)
@@ -149,6 +174,16 @@ static struct gx_value phases_default(const struct gx_value *value)
 static struct gx_value dt_default(const struct gx_value *value)
 {
   return is_continuum(value) ? null : (struct gx_value){.type = GX_REAL, .real = 1e-3};
+}
+
+static struct gx_value degree_default(const struct gx_value *value)
+{
+  return (struct gx_value){.type = GX_INTEGER, .integer = is_collocation(value) ? 5 : 2};
+}
+
+static struct gx_value closure_default(const struct gx_value *value)
+{
+  return text_value(is_text(value[GX_METHOD_FRAME], "reference") ? "symmetric" : "papers");
 }
 
 static struct gx_value projection_default(const struct gx_value *value)
@@ -312,23 +347,23 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                          .unit = "",
                          .choice = basis_choice,
                          .standard = "bspline",
-                         .applies = is_continuum,
+                         .applies = is_galerkin,
                          .help = "basis functions of the grid",
                          .why = "smooth across cells, so that crossings cost little"},
     [GX_METHOD_DEGREE] = {.path = "method.degree",
                           .type = GX_INTEGER,
                           .unit = "",
                           RANGE(1, GX_MAX_DEGREE),
-                          .standard = "2",
+                          .resolve = degree_default,
                           .applies = degree_applies,
-                          .help = "polynomial degree of the basis; bases that have one, such as bspline",
-                          .why = "the lowest with a continuous gradient"},
+                          .help = "polynomial degree: of bspline and the other bases that have one, and of the spline spaces",
+                          .why = "2: the lowest with a continuous gradient; 5 for the spline spaces, as in the papers"},
     [GX_METHOD_MASS] = {.path = "method.mass",
                         .type = GX_TEXT,
                         .unit = "",
                         .choice = mass_choice,
                         .standard = "lumped",
-                        .applies = is_continuum,
+                        .applies = is_galerkin,
                         .help = "mass matrix: row sums, or the full matrix solved each step",
                         .why = "cheap, and the literature's; consistent is needed for order above 2"},
     [GX_METHOD_TRANSFER] =
@@ -369,7 +404,7 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                               .unit = "",
                               .choice = projection_choice,
                               .resolve = projection_default,
-                              .applies = is_continuum,
+                              .applies = is_galerkin,
                               .help = "nodal velocity projected from particles each step, or once at the start",
                               .why = "by space: each-step on a fixed grid, once on a grid that moves along"},
     [GX_METHOD_STRESS] = {.path = "method.stress",
@@ -380,6 +415,30 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                           .applies = is_continuum,
                           .help = "stress from the deformation gradient F, or integrated from its rate",
                           .why = "no drift away from the material law"},
+    [GX_METHOD_FRAME] = {.path = "method.frame",
+                         .type = GX_TEXT,
+                         .unit = "",
+                         .choice = frame_choice,
+                         .standard = "reference",
+                         .applies = is_collocation,
+                         .help = "sites of the splines: particles where they are, or where they were; spline spaces",
+                         .why = "reference: nothing crosses, and the order is kept; the papers' is current"},
+    [GX_METHOD_CLOSURE] = {.path = "method.closure",
+                           .type = GX_TEXT,
+                           .unit = "",
+                           .choice = closure_choice,
+                           .applies = closure_applies,
+                           .resolve = closure_default,
+                           .help = "fixed ends: as in the papers, or by mirror images; spline spaces between fixed ends",
+                           .why = "symmetric is stable at every degree; papers in the current frame, to compare"},
+    [GX_METHOD_DIVERGENCE] = {.path = "method.divergence",
+                              .type = GX_TEXT,
+                              .unit = "",
+                              .choice = divergence_choice,
+                              .standard = "exact",
+                              .applies = divergence_applies,
+                              .help = "acceleration F/rho0 dsigma/dx, or without the factor F; current frame",
+                              .why = "exact: berzins2021 leaves the factor out"},
     [GX_TIME_DT] = {.path = "time.dt",
                     .type = GX_REAL,
                     .unit = "s",
