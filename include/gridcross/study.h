@@ -59,6 +59,7 @@ struct gx_plan {
   double steps;
   double particles;
   double stable_dt; /* s; NaN: unknown */
+  double growth;    /* largest real part of the eigenvalues at the start, 1/s; NaN: unknown */
 };
 
 struct gx_plan gx_case_plan(const struct gx_case *one);

@@ -182,11 +182,13 @@ void gx_case_free(struct gx_result *result)
 
 struct gx_plan gx_case_plan(const struct gx_case *one)
 {
-  struct gx_plan plan = {.outcome = {.status = GX_OK, .particle = -1}, .stable_dt = NAN};
+  struct gx_plan plan = {.outcome = {.status = GX_OK, .particle = -1}, .stable_dt = NAN, .growth = NAN};
   struct gx_simulation simulation;
   if (gx_simulation_plan(&simulation, one, &plan.outcome) == GX_OK && gx_simulation_build(&simulation, &plan.outcome) == GX_OK) {
     plan.particles = (double)simulation.particles->n;
     plan.stable_dt = stable_dt(&simulation);
+    if (!simulation.space->through_cells)
+      plan.growth = gx_stability_growth(simulation.space); /* else it sees the flow's own stretching */
   }
   plan.dt = simulation.dt;
   plan.end = simulation.end;
