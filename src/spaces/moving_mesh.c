@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Moving-mesh (total Lagrangian) MPM, steffen2010 S(50)-S(61): weights at the reference positions X, computed once,
+/* Moving-mesh (total Lagrangian) MPM, steffen2010 eqs 50-61: weights at the reference positions X, computed once,
  *   F_p = I + sum u_i D_ip,  a_i = M^-1 sum (-V0 P_p D_ip + m_p b_p S_ip),  v_i += dt a_i,  u_i += dt v_i.
  * projection once: the state is (u_i, v_i) and particles sample it, x_p = X_p + sum S_ip u_i, v_p = sum S_ip v_i.
  * projection each-step: the paper to the letter, v_i = M^-1 sum m_p v_p S_ip each step, u_p and v_p incremented. */
@@ -188,7 +188,7 @@ static void rates(struct gx_space *space, double *const *rate)
 const struct gx_space_kind gx_moving_mesh = {
     .name = "moving-mesh",
     .help = "total Lagrangian MPM: gradients in the reference configuration, first Piola-Kirchhoff stress",
-    .source = "steffen2010 S(50)-S(61)",
+    .source = "steffen2010 eqs 50-61",
     .create = create,
     .free = gx_mesh_free,
     .weights = weights,

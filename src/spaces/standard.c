@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Standard MPM on a fixed grid, steffen2010 S(15)-S(22): weights at the current positions x = X + u,
+/* Standard MPM on a fixed grid, steffen2010 eqs 15-22: weights at the current positions x = X + u,
  *   m_i = sum m_p S_ip,  v_i = M^-1 sum m_p v_p S_ip,  a_i = M^-1 sum (-V_p sigma_p D_ip + m_p b_p S_ip),
  *   v_p += dt sum S_ip a_i,  F_p <- (I + dt sum v_i D_ip) F_p,  x_p += dt sum S_ip v_i.
  * V sigma = V0 P F^T, so P is the only stress that is kept. */
@@ -252,7 +252,7 @@ static void rates(struct gx_space *space, double *const *rate)
 const struct gx_space_kind gx_standard = {
     .name = "standard",
     .help = "MPM on a fixed grid: particles move through the cells, Cauchy stress, gradients at current positions",
-    .source = "steffen2010 S(15)-S(22)",
+    .source = "steffen2010 eqs 15-22",
     .fixed_grid = true,
     .create = create,
     .free = gx_mesh_free,
