@@ -42,7 +42,7 @@ enum gx_primitive {
   GX_CLOSE           /* x <- y + span S v */
 };
 
-enum { GX_MAX_STATE = 32 };
+enum { GX_MAX_STATE = 48 }; /* in 3-D u, v, F, P and nodal velocity are 27 */
 
 /* The arrays that a space advances in time; what a Runge–Kutta engine combines. */
 struct gx_state {
