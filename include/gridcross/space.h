@@ -46,7 +46,7 @@ enum gx_primitive {
   GX_CLOSE           /* x <- y + span S v */
 };
 
-enum { GX_MAX_STATE = 32 };
+enum { GX_MAX_STATE = 48 }; /* in 3-D u, v, F, P and nodal velocity are 27 */
 
 /* The arrays that a space advances in time; what a Runge–Kutta engine combines. */
 struct gx_state {
@@ -68,8 +68,8 @@ struct gx_space_kind {
   enum gx_status (*create)(struct gx_space **space, const struct gx_space_options *options, struct gx_particles *particles,
                            const struct gx_posed *posed, struct gx_outcome *outcome);
   void (*free)(struct gx_space *space);
-  /* Primitives of NUMERICS: W, P, A at time t, then K (kick), G (strain), X (drift) in that order, each by its own time span;
-   * a span of 0 skips it. */
+  /* The primitives above: weights, projection, acceleration at time t; then kick, strain and drift in that order, each by its own
+   * time span in s, where 0 skips it. */
   enum gx_status (*weights)(struct gx_space *space);
   enum gx_status (*project)(struct gx_space *space);
   enum gx_status (*accelerate)(struct gx_space *space, double t);

@@ -14,8 +14,7 @@ extern const struct gx_command gx_command_run, gx_command_check, gx_command_init
     0, "set", "PATH=VALUE", "replace a parameter of the run file; as often as wanted"                                            \
   }
 
-/* Reads the run file that the first operand names with its --set, and says how many cases were dropped as duplicates.
- * NULL after messages. */
+/* Reads the run file that the first operand names with its --set. NULL after messages. */
 struct gx_study *gx_command_read(const struct gx_options *options);
 
 /* Exit code after saying that memory ran out. */

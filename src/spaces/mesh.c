@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "../core/kernel.h"
+#include "../core/vector.h"
 
 static void lay_out_grid(struct gx_mesh *mesh)
 {
@@ -214,6 +215,29 @@ void gx_mesh_project(struct gx_mesh *mesh, double *const *value, double *const *
   for (int d = 0; d < mesh->grid.dim; d++) zero(mesh, field[d]);
   gx_transfer_scatter(&mesh->weights, mesh->space.particles->m, value, NULL, field);
   solve_mass(mesh, field);
+}
+
+enum gx_status gx_mesh_stress(struct gx_mesh *mesh)
+{
+  struct gx_particles *particles = mesh->space.particles;
+  const struct gx_posed *posed = mesh->space.posed;
+  long tangled =
+      posed->problem->material->piola(&posed->options.moduli, particles->dim, particles->n, particles->F, particles->P);
+  if (tangled < 0) return GX_OK;
+  return gx_status_set(mesh->space.outcome, GX_TANGLED, tangled, "det F of a particle is %g",
+                       gx_particles_jacobian(particles, (size_t)tangled));
+}
+
+void gx_mesh_kick_particles(struct gx_mesh *mesh, double kick)
+{
+  struct gx_particles *particles = mesh->space.particles;
+  double flip = mesh->options.pic ? 0 : mesh->options.flip;
+  for (int d = 0; d < particles->dim; d++) {
+    double *v = particles->v[d];
+    gx_vector_add(particles->n, kick, mesh->gathered_a[d], v);
+    if (flip < 1)
+      for (size_t p = 0; p < particles->n; p++) v[p] = flip * v[p] + (1 - flip) * mesh->gathered_v[d][p];
+  }
 }
 
 GX_CLONES static void multiply(size_t n, const double *restrict a, const double *restrict b, double *restrict product)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Errors of the moving mesh against those of an independent prototype: periodic bar with lumped and consistent mass, and a bar
+/* Errors of the moving mesh against those of an independent program: periodic bar with lumped and consistent mass, and a bar
  * between fixed ends with particles at Gauss points. The degree decides the order only with consistent mass and quadrature
- * to match. Tables of NUMERICS §2: max over time of RMS u, cells 8, 16, 32, 64. */
+ * to match. Each row: max over time of RMS u, cells 8, 16, 32, 64. */
 #include <gsl/gsl_errno.h>
 
 #include "case_of.h"
@@ -26,7 +26,7 @@ static void compare_row(struct gx_case one, const char *what, const double *expe
           expected[i]);
 }
 
-static void periodic_bar_has_the_errors_of_the_prototype(void **state)
+static void periodic_bar_has_the_errors_of_an_independent_program(void **state)
 {
   (void)state;
   static const struct {
@@ -59,7 +59,7 @@ static struct gx_case fixed_bar(const char *layout, const char *per_cell, const 
   return one;
 }
 
-static void fixed_bar_has_the_errors_of_the_prototype(void **state)
+static void fixed_bar_has_the_errors_of_an_independent_program(void **state)
 {
   (void)state;
   static const struct {
@@ -96,8 +96,8 @@ int main(void)
 {
   gsl_set_error_handler_off();
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(periodic_bar_has_the_errors_of_the_prototype),
-      cmocka_unit_test(fixed_bar_has_the_errors_of_the_prototype),
+      cmocka_unit_test(periodic_bar_has_the_errors_of_an_independent_program),
+      cmocka_unit_test(fixed_bar_has_the_errors_of_an_independent_program),
       cmocka_unit_test(degree_gives_order),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

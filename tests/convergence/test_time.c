@@ -80,8 +80,8 @@ static void energy_and_work_balance(void **state)
   }
 }
 
-/* Smooth theory of the step's energy defect, Euler clocks from rest position: A^2 omega^4 dt^2 rho0 / 4; NUMERICS §5 has 2.245e-7
- * for this run. */
+/* Smooth theory of the step's energy defect, Euler clocks from rest position: A^2 omega^4 dt^2 rho0 / 4; an independent program
+ * has 2.245e-7 for this run. */
 static double defect_at(const char *dt)
 {
   struct gx_case one =

@@ -46,7 +46,7 @@ static void linear_by_hand(void **state)
   NEAR(point.S[1], 1, 0);
 }
 
-/* The three pieces of NUMERICS: S and D of the node at distance r, half width l. */
+/* The three pieces of a hat averaged over a domain: S and D of the node at distance r, half width l. */
 static void gimp_formula(double r, double h, double l, double *S, double *D)
 {
   double q = fabs(r), sign = r < 0 ? -1 : 1, w = h + l - q;

@@ -133,7 +133,7 @@ static void body_force_balances_momentum(void **state)
   each_problem(check_balance);
 }
 
-/* S(131): b = C^2 pi^2 u (2 F^-2 + 1), also for the axis-aligned wave along one direction. */
+/* steffen2010 eq. 131: b = C^2 pi^2 u (2 F^-2 + 1), also for the axis-aligned wave along one direction. */
 static void neo_hookean_body_by_hand(void **state)
 {
   (void)state;
