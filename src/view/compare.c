@@ -20,6 +20,11 @@ struct layout {
   int row_width, value_width, order_width, group_width;
 };
 
+static const char *axis_label(const struct gx_pivot *pivot, size_t axis, size_t column, char text[GX_PIVOT_LABEL])
+{
+  return gx_pivot_label(pivot, pivot->axis[axis], pivot->column_sample[column], text);
+}
+
 static const char *row_label(const struct gx_pivot *pivot, size_t row, char buffer[GX_NUMBER_LENGTH])
 {
   const char *name = pivot->table->column[pivot->row_axis].name;
@@ -68,7 +73,7 @@ static struct layout measure(const struct gx_pivot *pivot, size_t v)
   }
   at.group_width = at.value_width + (at.ordered ? 1 + at.order_width : 0);
   for (size_t a = 0; a < pivot->axes; a++)
-    for (size_t c = 0; c < pivot->columns; c++) widen(&at.group_width, gx_pivot_label(pivot, a, c, label));
+    for (size_t c = 0; c < pivot->columns; c++) widen(&at.group_width, axis_label(pivot, a, c, label));
   at.value_width = at.group_width - (at.ordered ? 1 + at.order_width : 0);
   return at;
 }
@@ -83,8 +88,8 @@ static void print_labels(const struct layout *at, const char *lead, size_t axis,
     char label[GX_PIVOT_LABEL], before[GX_PIVOT_LABEL];
     bool same = c > from && !innermost;
     for (size_t a = 0; a <= axis && same; a++)
-      same = !strcmp(gx_pivot_label(at->pivot, a, c, label), gx_pivot_label(at->pivot, a, c - 1, before));
-    gx_pivot_label(at->pivot, axis, c, label);
+      same = !strcmp(axis_label(at->pivot, a, c, label), axis_label(at->pivot, a, c - 1, before));
+    axis_label(at->pivot, axis, c, label);
     skipped += GAP;
     if (same || !*label) {
       skipped += at->group_width;
@@ -101,7 +106,7 @@ static bool any_label(const struct gx_pivot *pivot, size_t axis, size_t from, si
 {
   char label[GX_PIVOT_LABEL];
   for (size_t c = from; c < to; c++)
-    if (*gx_pivot_label(pivot, axis, c, label)) return true;
+    if (*axis_label(pivot, axis, c, label)) return true;
   return false;
 }
 
@@ -151,8 +156,7 @@ static size_t block_end(const struct gx_pivot *pivot, size_t from, size_t fit)
   for (size_t c = from + 1; c <= end; c++) {
     char label[GX_PIVOT_LABEL], before[GX_PIVOT_LABEL];
     size_t axis = 0;
-    while (axis < pivot->axes && !strcmp(gx_pivot_label(pivot, axis, c, label), gx_pivot_label(pivot, axis, c - 1, before)))
-      axis++;
+    while (axis < pivot->axes && !strcmp(axis_label(pivot, axis, c, label), axis_label(pivot, axis, c - 1, before))) axis++;
     if (axis > best) continue;
     best = axis;
     at = c;

@@ -258,12 +258,11 @@ void gx_pivot_free(struct gx_pivot *pivot)
   free(pivot);
 }
 
-const char *gx_pivot_label(const struct gx_pivot *pivot, size_t axis, size_t column, char text[GX_PIVOT_LABEL])
+const char *gx_pivot_label(const struct gx_pivot *pivot, size_t column, size_t row, char text[GX_PIVOT_LABEL])
 {
-  size_t c = pivot->axis[axis];
   char buffer[GX_NUMBER_LENGTH];
-  const char *name = pivot->table->column[c].name;
-  struct gx_value value = gx_table_get(pivot->table, pivot->column_sample[column], c);
+  const char *name = pivot->table->column[column].name;
+  struct gx_value value = gx_table_get(pivot->table, row, column);
   if (value.type == GX_NULL)
     text[0] = '\0';
   else if (value.type == GX_TEXT)
