@@ -28,6 +28,7 @@ struct gx_figure {
   size_t lines;
   struct gx_figure_line *line; /* owned */
   struct gx_figure_axis x, y;
+  bool few_x;            /* x takes few values, as parameters do: a tic at each */
   bool dense;            /* so many points that few of them are marked */
   double triangle[3][2]; /* right angle last */
   double triangle_slope; /* 0: no triangle */

@@ -80,14 +80,28 @@ static size_t few_values(const struct gx_figure *figure, double value[LISTED])
   return count;
 }
 
+static void put_range(const char *name, const struct gx_figure_axis *axis, FILE *out)
+{
+  double least = axis->least, most = axis->most;
+  if (axis->log) {
+    double room = pow(most / least, 0.05);
+    least /= room;
+    most *= room;
+  } else if (least == most) { /* gnuplot would warn */
+    double room = least != 0 ? fabs(least) / 2 : 1;
+    least -= room;
+    most += room;
+  } else {
+    return;
+  }
+  fprintf(out, "set %srange [%.6g:%.6g]\n", name, least, most);
+}
+
 static void put_axis(const char *name, const struct gx_figure_axis *axis, size_t values, const double *value, FILE *out)
 {
   char text[GX_NUMBER_LENGTH];
   const char *gap = "";
-  if (axis->least == axis->most) { /* gnuplot would warn */
-    double room = axis->least != 0 ? fabs(axis->least) / 2 : 1;
-    fprintf(out, "set %srange [%.17g:%.17g]\n", name, axis->least - room, axis->most + room);
-  }
+  put_range(name, axis, out);
   if (!axis->log) return;
   fprintf(out, "set logscale %s\n", name);
   if (!values && axis->most / axis->least > 100) {
@@ -117,7 +131,8 @@ static void put_terminal(const struct gx_figure *figure, const char *ending, FIL
   if (!strcmp(ending, "svg"))
     fprintf(out, "set terminal svg size %zu,%zu font 'sans-serif,13' background '#ffffff'\n", width, height);
   else if (!strcmp(ending, "pdf"))
-    fprintf(out, "set terminal pdfcairo size %.2f,%.2f font 'sans,10' fontscale 1\n", (double)width / 96, (double)height / 96);
+    fprintf(out, "set terminal pdfcairo size %.2f,%.2f font 'sans,16' linewidth 1.5 pointscale 0.6\n", (double)width / 96,
+            (double)height / 96);
   else
     fprintf(out,
             "if (strstrt(GPVAL_TERMINALS, 'pngcairo')) {\n"
@@ -187,9 +202,9 @@ void gx_gnuplot_write(const struct gx_figure *figure, const char *stem, const ch
   }
   put_axis_label("x", &figure->data->column[GX_FIGURE_X], out);
   put_axis_label("y", &figure->data->column[GX_FIGURE_Y], out);
-  put_axis("x", &figure->x, figure->x.log ? few_values(figure, value) : 0, value, out);
+  put_axis("x", &figure->x, figure->few_x && figure->x.log ? few_values(figure, value) : 0, value, out);
   put_axis("y", &figure->y, 0, value, out);
-  fputs("set border 3\nset tics nomirror\nset grid linecolor rgb '#dddddd'\n", out);
+  fputs("set border 3\nset tics nomirror\nset grid linecolor rgb '#d0d0d0' linewidth 1\n", out);
   if (figure->lines > 1 || *figure->line[0].label)
     fputs("set key noenhanced outside right top vertical Left reverse\n", out);
   else

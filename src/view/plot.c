@@ -221,6 +221,7 @@ static void choose_triangle(struct gx_figure *figure)
   figure->triangle[2][0] = figure->triangle[0][0];
   figure->triangle[2][1] = figure->triangle[1][1];
   figure->triangle_slope = steepest->order;
+  figure->y.least = fmin(figure->y.least, figure->triangle[2][1] * below);
 }
 
 /* Whether a column holds numbers; if not, says so. */
@@ -311,6 +312,7 @@ enum gx_plot_status gx_plot_lines(const struct gx_plot *plot, FILE *errors)
     } else {
       struct gx_figure *figure = &sketch.figure;
       bool ordered = along && gx_pivot_ordered(sketch.pivot, 0);
+      figure->few_x = along;
       figure->x = axis_of(figure, GX_FIGURE_X, ordered ? 2 : 10, 0);
       figure->y = axis_of(figure, GX_FIGURE_Y, ordered ? 2 : 10, 0);
       for (size_t i = 0; i < figure->lines; i++)
