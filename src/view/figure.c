@@ -13,7 +13,7 @@
 #include "gnuplot.h"
 
 struct files {
-  char *folder;                 /* "./" where none is named */
+  char *folder;                 /* with a slash at its end; "" where none is named */
   char *stem;                   /* without folder and ending */
   const char *image, *ending;   /* borrowed */
   char *data, *script, *beside; /* paths; the script as its folder sees it */
@@ -49,7 +49,7 @@ static enum gx_plot_status files_name(struct files *files, const char *output, F
     fprintf(errors, "gridcross: '%s' does not say how to draw: end the figure's name in .svg, .png or .pdf\n", output);
     return GX_PLOT_REFUSED;
   }
-  files->folder = slash ? strndup(output, (size_t)(name - output)) : strdup("./");
+  files->folder = slash ? strndup(output, (size_t)(name - output)) : strdup("");
   files->stem = strndup(name, (size_t)(dot - name));
   if (files->folder && files->stem) {
     files->data = join(files->folder, files->stem, "csv");
@@ -109,7 +109,7 @@ enum gx_plot_status gx_figure_draw(const struct gx_figure *figure, const char *o
   if (!status && files_write(&files, figure, errors)) status = GX_PLOT_FAILED;
   if (!status) {
     unlink(files.image); /* an older one would not fit the data beside it */
-    if (gx_gnuplot_run(files.folder, files.beside, errors)) {
+    if (gx_gnuplot_run(*files.folder ? files.folder : ".", files.beside, errors)) {
       fprintf(errors, "; %s and %s are written\n", files.script, files.data);
       status = GX_PLOT_FAILED;
     }

@@ -119,28 +119,37 @@ static void put_axis(const char *name, const struct gx_figure_axis *axis, size_t
   fputs(")\n", out);
 }
 
-static void put_terminal(const struct gx_figure *figure, const char *ending, FILE *out)
+/* Terminal and margins. Where the legend stands is not left to gnuplot, whose guess at the width of SVG text is poor; of a legend
+ * higher than the plot it would drop the end. */
+static void put_layout(const struct gx_figure *figure, const char *ending, FILE *out)
 {
+  enum { LEFT = 90, RIGHT = 640, GAP = 20, LINE = 21, SAMPLE = 90, LETTER = 8 };
+  bool key = figure->lines > 1 || *figure->line[0].label;
   size_t widest = 0;
   for (size_t i = 0; i < figure->lines; i++) {
-    size_t length = strlen(figure->line[i].label);
+    size_t length = strlen(figure->line[i].label) + (isnan(figure->line[i].order) ? 0 : strlen(" (order 1.0)"));
     if (length > widest) widest = length;
   }
-  size_t width = 640 + (figure->lines > 1 ? 130 + 7 * widest : 0), height = 17 * figure->lines + 80;
+  double width = RIGHT + GAP + (key ? SAMPLE + LETTER * (double)widest : 0), height = LINE * (double)figure->lines + 140;
   if (height < 480) height = 480;
   if (!strcmp(ending, "svg"))
-    fprintf(out, "set terminal svg size %zu,%zu font 'sans-serif,13' background '#ffffff'\n", width, height);
+    fprintf(out, "set terminal svg size %.0f,%.0f font 'sans-serif,13' background '#ffffff'\n", width, height);
   else if (!strcmp(ending, "pdf"))
-    fprintf(out, "set terminal pdfcairo size %.2f,%.2f font 'sans,16' linewidth 1.5 pointscale 0.6\n", (double)width / 96,
-            (double)height / 96);
+    fprintf(out, "set terminal pdfcairo size %.2f,%.2f font 'sans,16' linewidth 1.5 pointscale 0.6\n", width / 96, height / 96);
   else
     fprintf(out,
             "if (strstrt(GPVAL_TERMINALS, 'pngcairo')) {\n"
-            "  set terminal pngcairo size %zu,%zu font 'sans,10' fontscale 2 linewidth 2 pointscale 2\n"
+            "  set terminal pngcairo size %.0f,%.0f font 'sans,10' fontscale 2 linewidth 2 pointscale 2\n"
             "} else {\n"
-            "  set terminal png size %zu,%zu\n"
+            "  set terminal png size %.0f,%.0f\n"
             "}\n",
             2 * width, 2 * height, width, height);
+  fprintf(out, "set lmargin at screen %.4f\nset rmargin at screen %.4f\n", LEFT / width, RIGHT / width);
+  if (key)
+    fprintf(out, "set key noenhanced at screen %.4f,%.4f left top vertical maxcols 1 Left reverse\n", (RIGHT + GAP) / width,
+            1 - 40 / height);
+  else
+    fputs("unset key\n", out);
 }
 
 /* A right-angled triangle under the steepest line: 1 along x, the slope along y. */
@@ -191,7 +200,7 @@ void gx_gnuplot_write(const struct gx_figure *figure, const char *stem, const ch
 {
   double value[LISTED];
   fputs(gx_gnuplot_mark, out);
-  put_terminal(figure, ending, out);
+  put_layout(figure, ending, out);
   fputs("set output ", out);
   put_file(stem, ending, out);
   fputs("\nset encoding utf8\nset datafile separator comma\n", out);
@@ -205,10 +214,6 @@ void gx_gnuplot_write(const struct gx_figure *figure, const char *stem, const ch
   put_axis("x", &figure->x, figure->few_x && figure->x.log ? few_values(figure, value) : 0, value, out);
   put_axis("y", &figure->y, 0, value, out);
   fputs("set border 3\nset tics nomirror\nset grid linecolor rgb '#d0d0d0' linewidth 1\n", out);
-  if (figure->lines > 1 || *figure->line[0].label)
-    fputs("set key noenhanced outside right top vertical Left reverse\n", out);
-  else
-    fputs("unset key\n", out);
   if (figure->triangle_slope != 0) put_triangle(figure, out);
   put_lines(figure, stem, out);
 }

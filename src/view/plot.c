@@ -200,12 +200,22 @@ static struct gx_figure_axis axis_of(const struct gx_figure *figure, size_t colu
   return axis;
 }
 
-/* Under the last pair of points of the steepest line. */
+static double last_y(const struct gx_figure *figure, const struct gx_figure_line *line)
+{
+  return gx_figure_number(figure, line->first + line->count - 1, GX_FIGURE_Y);
+}
+
+/* Under the last pair of points of the steepest line; of lines about as steep, the lowest, where there is room. */
 static void choose_triangle(struct gx_figure *figure)
 {
   const struct gx_figure_line *steepest = NULL;
-  for (size_t i = 0; i < figure->lines; i++)
-    if (figure->line[i].order >= 0.5 && (!steepest || figure->line[i].order > steepest->order)) steepest = &figure->line[i];
+  double most = 0.5;
+  for (size_t i = 0; i < figure->lines; i++) most = fmax(most, figure->line[i].order);
+  for (size_t i = 0; i < figure->lines; i++) {
+    const struct gx_figure_line *line = &figure->line[i];
+    if (line->order >= 0.5 && line->order > most - 0.3 && (!steepest || last_y(figure, line) < last_y(figure, steepest)))
+      steepest = line;
+  }
   if (!steepest) return;
   double below = pow(figure->y.most / figure->y.least, -0.06), log_x[2], log_y[2];
   for (size_t i = 0; i < 2; i++) {
