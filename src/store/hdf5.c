@@ -392,7 +392,7 @@ struct gx_table *gx_hdf5_read_history(const char *path, const char *id, const ch
   hid_t group = histories < 0 ? -1 : open_group(histories, id);
   if (file >= 0 && group < 0)
     fprintf(errors, "%s: has no history of case %s: set output.histories in its run file, and run that again\n", path, id);
-  else if (file >= 0 && (!*name || H5Lexists(group, name, H5P_DEFAULT) <= 0))
+  else if (file >= 0 && (!*name || strchr(name, '/') || H5Lexists(group, name, H5P_DEFAULT) <= 0))
     name_histories(group, name, errors);
   else if (file >= 0 && !(table = get_history(group, name)))
     fprintf(errors, "%s: the history of case %s is damaged\n", path, id);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Scripts for gnuplot 5. Text from outside stands in single quotes, where gnuplot substitutes nothing, and is never `enhanced`;
+/* Scripts for gnuplot 5. Text from outside is quoted with what gnuplot would substitute as octal numbers, and never `enhanced`;
  * files are named from ./ on, so that none reads as a pipe ("|..."), a command ("< ...") or an option. */
 #include "gnuplot.h"
 
@@ -31,7 +31,13 @@ static size_t character(const char *text)
   return length;
 }
 
-/* Part of a quoted text. A line break would end the statement; what is no character would spoil the image. */
+/* Part of a text in double quotes. Single ones would be simpler, were it not that gnuplot 5.4 ends '''' after two. */
+static void put_quoted(const char *text, size_t length, FILE *out)
+{
+  for (size_t i = 0; i < length; i++) fprintf(out, strchr("\"\\`@", text[i]) ? "\\%03o" : "%c", (unsigned char)text[i]);
+}
+
+/* The same for text to be seen: a line break would break the line, and what is no character would spoil the image. */
 static void put_part(const char *text, FILE *out)
 {
   for (size_t length; *text; text += length ? length : 1) {
@@ -41,21 +47,20 @@ static void put_part(const char *text, FILE *out)
     else if ((unsigned char)*text < ' ' || *text == 0x7F)
       putc(' ', out);
     else
-      fwrite(text, 1, length, out);
-    if (*text == '\'') putc('\'', out);
+      put_quoted(text, length, out);
   }
 }
 
 static void put_axis_label(const char *axis, const struct gx_column *column, FILE *out)
 {
-  fprintf(out, "set %slabel '", axis);
+  fprintf(out, "set %slabel \"", axis);
   put_part(column->name, out);
   if (*column->unit) {
     fputs(" [", out);
     put_part(column->unit, out);
     fputs("]", out);
   }
-  fputs("' noenhanced\n", out);
+  fputs("\" noenhanced\n", out);
 }
 
 static int by_size(const void *left, const void *right)
@@ -164,12 +169,12 @@ static void put_triangle(const struct gx_figure *figure, FILE *out)
   fprintf(out, "set label '1' at %.17g,%.17g center offset 0,-0.8\n", sqrt(at[1][0] * at[2][0]), at[2][1]);
 }
 
-/* './<name><ending>', byte for byte. */
+/* "./<name>.<ending>", byte for byte */
 static void put_file(const char *name, const char *ending, FILE *out)
 {
-  fputs("'./", out);
-  for (; *name; name++) fputs(*name == '\'' ? "''" : (const char[]){*name, '\0'}, out);
-  fprintf(out, ".%s'", ending);
+  fputs("\"./", out);
+  put_quoted(name, strlen(name), out);
+  fprintf(out, ".%s\"", ending);
 }
 
 static void put_lines(const struct gx_figure *figure, const char *stem, FILE *out)
@@ -187,11 +192,11 @@ static void put_lines(const struct gx_figure *figure, const char *stem, FILE *ou
     const struct gx_figure_line *line = &figure->line[i];
     if (i) fputs(", \\\n     ", out);
     put_file(stem, "csv", out);
-    fprintf(out, " skip 1 every ::%zu::%zu using %d:%d with linespoints linestyle %zu title '", line->first,
+    fprintf(out, " skip 1 every ::%zu::%zu using %d:%d with linespoints linestyle %zu title \"", line->first,
             line->first + line->count - 1, GX_FIGURE_X + 1, GX_FIGURE_Y + 1, i + 1);
     put_part(line->label, out);
     if (!isnan(line->order)) fprintf(out, " (order %.1f)", fabs(line->order) < 0.05 ? 0 : line->order);
-    putc('\'', out);
+    putc('"', out);
   }
   putc('\n', out);
 }
@@ -205,9 +210,9 @@ void gx_gnuplot_write(const struct gx_figure *figure, const char *stem, const ch
   put_file(stem, ending, out);
   fputs("\nset encoding utf8\nset datafile separator comma\n", out);
   if (*figure->title) {
-    fputs("set title '", out);
+    fputs("set title \"", out);
     put_part(figure->title, out);
-    fputs("' noenhanced\n", out);
+    fputs("\" noenhanced\n", out);
   }
   put_axis_label("x", &figure->data->column[GX_FIGURE_X], out);
   put_axis_label("y", &figure->data->column[GX_FIGURE_Y], out);
@@ -235,18 +240,19 @@ static int spawn(char *const *arguments, int *status)
   return error;
 }
 
-/* cd '<folder>', owned by the caller */
+/* cd "<folder>", owned by the caller; a leading ~ would be a home. */
 static char *change_folder(const char *folder)
 {
-  char *command = malloc(2 * strlen(folder) + 8), *to = command;
-  if (!command) return NULL;
-  to += sprintf(to, "cd '");
-  for (; *folder; folder++) {
-    if (*folder == '\'') *to++ = '\'';
-    *to++ = *folder;
-  }
-  sprintf(to, "'");
-  return command;
+  char *command = NULL;
+  size_t length;
+  FILE *out = open_memstream(&command, &length);
+  if (!out) return NULL;
+  fputs(*folder == '/' ? "cd \"" : "cd \"./", out);
+  put_quoted(folder, strlen(folder), out);
+  putc('"', out);
+  if (!fclose(out)) return command;
+  free(command);
+  return NULL;
 }
 
 int gx_gnuplot_run(const char *folder, const char *script, FILE *errors)

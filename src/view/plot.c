@@ -80,6 +80,8 @@ static char *line_label(const struct sketch *sketch, size_t column, bool row_too
     if (*text && *label) strcat(label, ", ");
     strcat(label, text);
   }
+  for (char *c = label; c && *c; c++) /* gnuplot reads the data by lines */
+    if ((unsigned char)*c < ' ') *c = ' ';
   return label;
 }
 
