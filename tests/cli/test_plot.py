@@ -85,6 +85,8 @@ class Lines(Case):
         for label in {label for label, _ in cases}:
             order = math.log2(float(cases[label, "16"]) / float(cases[label, "32"]))
             self.assertIn(f"{label} (order {order:.1f})", texts)
+        marks = re.findall(r"<use xlink:href='#gpPt", (self.dir / "fig.svg").read_text())
+        self.assertEqual(len(marks), 12 + 4)  # points, and samples in the legend
         script = (self.dir / "fig.gp").read_text()
         self.assertIn("set logscale x\n", script)
         self.assertIn("set logscale y\n", script)
@@ -137,6 +139,13 @@ class Lines(Case):
         self.assertEqual(sorted(float(r["result.seconds"]) for r in rows), seconds)
         self.assertNotIn("(order", (self.dir / "fig.gp").read_text())
         self.assertNotIn("set logscale y", (self.dir / "fig.gp").read_text())  # the moving mesh has no crossings
+
+    def test_linear_axes_show_no_order(self):
+        self.run_study("small.yaml", "--set", "mesh.cells=[8, 9]", "-o", "near.study")
+        self.call("plot", "near.study", "-o", "fig.svg")
+        script = (self.dir / "fig.gp").read_text()
+        self.assertNotIn("set logscale x", script)
+        self.assertNotIn("(order", script)
 
     def test_cases_that_failed_are_left_out(self):
         (self.dir / "fast.yaml").write_text(STUDY.replace("cfl: 0.4", "cfl: [0.4, 50]").replace("degree: [1, 2]", "degree: 1"))
