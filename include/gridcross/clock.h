@@ -39,7 +39,7 @@ struct gx_clock {
   bool symplectic;
   bool staggered;          /* velocity lives at half steps, starting at -dt/2 */
   bool first_order_defect; /* per-step energy defect by berzins2022 E(94), else E(88) */
-  double stability;        /* largest omega dt on x'' = -omega^2 x */
+  double stability;        /* largest omega dt on the oscillator */
   /* exactly one of rows, splitting, tableau: */
   const struct gx_row *rows;       /* ended by GX_END */
   const struct gx_row *plain_rows; /* with rows: what they become where weights never change; NULL: the same */

@@ -62,7 +62,7 @@ struct gx_plan {
 };
 
 struct gx_plan gx_case_plan(const struct gx_case *one);
-/* Runs one case; never aborts. */
+/* Runs one case; never aborts, once gsl_set_error_handler_off was called (gx_study_run does). */
 struct gx_result gx_case_run(const struct gx_case *one);
 void gx_case_free(struct gx_result *result);
 

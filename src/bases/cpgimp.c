@@ -7,18 +7,9 @@
 GX_CLONES static long evaluate(const struct gx_axis *axis, size_t n, const double *restrict x, const double *restrict half,
                                int *restrict first, double *restrict S, double *restrict D)
 {
-  const bool periodic = axis->periodic;
-  const int cells = axis->cells;
-  const double widest = 0.5 * (1 + 1e-12);
-  int outside = 0;
-  for (size_t p = 0; p < n; p++) {
-    double l = half[p] * cells;
-    outside |= !(l > 0 && l <= widest);
-    gx_gimp_weights(cells, n, p, gx_locate(periodic, cells, x[p]), l, first, S, D);
-  }
-  if (outside)
+  if (gx_gimp_evaluate(axis, n, x, half, first, S, D))
     for (size_t p = 0; p < n; p++)
-      if (!(half[p] > 0 && half[p] * cells <= widest)) return (long)p;
+      if (!(half[p] > 0 && half[p] * axis->cells <= gx_gimp_widest)) return (long)p;
   return -1;
 }
 

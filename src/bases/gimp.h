@@ -24,8 +24,10 @@ GX_CORE void gx_gimp_weights(int cells, size_t n, size_t p, double s, double l, 
   int nearest = (int)(s + 0.5);
   double t = s - nearest;
   double a = l - t, b = l + t;
-  a = a < 0 ? 0 : a > 2 * l ? 2 * l : a;
-  b = b < 0 ? 0 : b > 2 * l ? 2 * l : b;
+  a = a > 0 ? a : 0;
+  b = b > 0 ? b : 0;
+  a = a < 2 * l ? a : 2 * l;
+  b = b < 2 * l ? b : 2 * l;
   double scale = 0.5 / l;
   double slope_left = a * scale, slope_right = b * scale;
   double beyond_left = -t - l, beyond_right = t - l;
@@ -38,6 +40,28 @@ GX_CORE void gx_gimp_weights(int cells, size_t n, size_t p, double s, double l, 
   D[p] = -slope_left * cells;
   D[n + p] = (slope_left - slope_right) * cells;
   D[2 * n + p] = slope_right * cells;
+}
+
+static const double gx_gimp_widest = 0.5 * (1 + 1e-12); /* cells */
+
+/* Weights at n points; returns whether a domain is not between 0 and one cell wide. `periodic` is constant for vectorisation. */
+GX_CORE bool gx_gimp_points(const bool periodic, int cells, size_t n, const double *restrict x, const double *restrict half,
+                            int *restrict first, double *restrict S, double *restrict D)
+{
+  int outside = 0;
+  for (size_t p = 0; p < n; p++) {
+    double l = half[p] * cells;
+    outside |= !(l > 0) | !(l <= gx_gimp_widest);
+    gx_gimp_weights(cells, n, p, gx_locate(periodic, cells, x[p]), l, first, S, D);
+  }
+  return outside;
+}
+
+GX_CORE bool gx_gimp_evaluate(const struct gx_axis *axis, size_t n, const double *restrict x, const double *restrict half,
+                              int *restrict first, double *restrict S, double *restrict D)
+{
+  return axis->periodic ? gx_gimp_points(true, axis->cells, n, x, half, first, S, D)
+                        : gx_gimp_points(false, axis->cells, n, x, half, first, S, D);
 }
 
 #endif

@@ -7,9 +7,7 @@
 GX_CLONES static long evaluate(const struct gx_axis *axis, size_t n, const double *restrict x, const double *restrict half,
                                int *restrict first, double *restrict S, double *restrict D)
 {
-  const bool periodic = axis->periodic;
-  const int cells = axis->cells;
-  for (size_t p = 0; p < n; p++) gx_gimp_weights(cells, n, p, gx_locate(periodic, cells, x[p]), half[p] * cells, first, S, D);
+  gx_gimp_evaluate(axis, n, x, half, first, S, D);
   return -1;
 }
 

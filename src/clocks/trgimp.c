@@ -17,6 +17,6 @@ const struct gx_clock gx_trgimp = {
     .source = "berzins2022 §6",
     .order = 1,
     .stages = 2,
-    .stability = 1.4142135623730951,
+    .stability = 1, /* on the oscillator, whose force takes stress and position; sqrt 2 where it takes one of them */
     .rows = rows,
 };

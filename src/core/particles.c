@@ -22,7 +22,7 @@ static double *place(double **component, int count, double *at, size_t stride)
 static struct gx_particles *allocate(int dim, size_t n)
 {
   size_t arrays = 5 * (size_t)dim + 2 * (size_t)(dim * dim) + 2;
-  size_t stride = (n + 7) / 8 * 8;
+  size_t stride = (n + 7) / 8 * 8 + 8; /* one cache line more, or arrays of 2^k entries would share a cache set */
   if (stride < n || stride > SIZE_MAX / sizeof(double) / arrays) return NULL;
   struct gx_particles *particles = calloc(1, sizeof *particles);
   if (!particles) return NULL;

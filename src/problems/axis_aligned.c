@@ -6,6 +6,7 @@
 
 #include <stdbool.h>
 
+#include "../core/kernel.h"
 #include "standing_wave.h"
 
 static double angle(const struct gx_posed *posed, int d, double t)
@@ -24,27 +25,39 @@ void gx_axis_aligned_exact(const struct gx_posed *posed, double t, double *const
 }
 
 /* Without a bulk term each direction depends on its own F_d alone. */
+GX_CLONES static void body_without_bulk(size_t n, double A, double mu, double stiff, double inertia, const double *restrict sine,
+                                        const double *restrict cosine, double *restrict out)
+{
+  const double slope = 2 * M_PI * A;
+  for (size_t p = 0; p < n; p++) {
+    double F = 1 + slope * cosine[p];
+    out[p] = A * sine[p] * (stiff * (mu + mu / (F * F)) - inertia);
+  }
+}
+
+static void body_with_bulk(const struct gx_posed *posed, const double *A, double stiff, double inertia, double *const *b)
+{
+  const int dim = posed->options.dim;
+  const double mu = posed->options.moduli.mu, lambda = posed->options.moduli.lambda;
+  for (size_t p = 0; p < posed->n; p++) {
+    double F[GX_MAX_DIM], J = 1;
+    for (int d = 0; d < dim; d++) J *= F[d] = 1 + 2 * M_PI * A[d] * posed->cosine[d][p];
+    const double bulk = lambda * (1 - log(J));
+    for (int d = 0; d < dim; d++) b[d][p] = A[d] * posed->sine[d][p] * (stiff * (mu + (mu + bulk) / (F[d] * F[d])) - inertia);
+  }
+}
+
 void gx_axis_aligned_body(const struct gx_posed *posed, double t, double *const *b)
 {
   const struct gx_problem_options *options = &posed->options;
-  const double mu = options->moduli.mu, lambda = options->moduli.lambda, density = options->moduli.density;
-  double amplitude[GX_MAX_DIM];
-  for (int d = 0; d < options->dim; d++) amplitude[d] = options->active[d] ? options->amplitude * cos(angle(posed, d, t)) : 0;
-  const double stiff = 4 * M_PI * M_PI / density, inertia = M_PI * M_PI * posed->speed * posed->speed;
-  for (int d = 0; d < options->dim; d++) {
-    const double *sine = posed->sine[d], *cosine = posed->cosine[d];
-    const double A = amplitude[d], slope = 2 * M_PI * A;
-    double *restrict out = b[d];
-    for (size_t p = 0; p < posed->n; p++) {
-      double F = 1 + slope * cosine[p], bulk = 0;
-      if (lambda != 0) {
-        double J = 1;
-        for (int e = 0; e < options->dim; e++) J *= 1 + 2 * M_PI * amplitude[e] * posed->cosine[e][p];
-        bulk = lambda * (1 - log(J));
-      }
-      out[p] = A * sine[p] * (stiff * (mu + (mu + bulk) / (F * F)) - inertia);
-    }
-  }
+  double A[GX_MAX_DIM];
+  for (int d = 0; d < options->dim; d++) A[d] = options->active[d] ? options->amplitude * cos(angle(posed, d, t)) : 0;
+  const double stiff = 4 * M_PI * M_PI / options->moduli.density, inertia = M_PI * M_PI * posed->speed * posed->speed;
+  if (options->moduli.lambda != 0)
+    body_with_bulk(posed, A, stiff, inertia, b);
+  else
+    for (int d = 0; d < options->dim; d++)
+      body_without_bulk(posed->n, A[d], options->moduli.mu, stiff, inertia, posed->sine[d], posed->cosine[d], b[d]);
 }
 
 const struct gx_problem gx_axis_aligned = {

@@ -27,18 +27,20 @@ static void lay_out_grid(struct gx_mesh *mesh)
   }
 }
 
-/* Hands out `count` arrays of `length` doubles from `at`; with at NULL only counts them. */
+/* Hands out `count` arrays of `length` doubles from `at`; with at NULL only counts them. A cache line between two arrays keeps
+ * arrays whose length is a power of two out of the same cache set. */
 static size_t hand_out(double **array, int count, size_t length, double *at)
 {
-  for (int i = 0; at && i < count; i++) array[i] = at + (size_t)i * length;
-  return (size_t)count * length;
+  const size_t line = 8, stride = (length + line - 1) / line * line + line;
+  for (int i = 0; at && i < count; i++) array[i] = at + (size_t)i * stride;
+  return (size_t)count * stride;
 }
 
 /* Sets every array of the mesh; returns the number of doubles they take. */
 static size_t place_arrays(struct gx_mesh *mesh, double *block)
 {
   int dim = mesh->grid.dim, support = mesh->grid.axis[0].support;
-  size_t nodes = (mesh->grid.stored + 7) / 8 * 8, n = (mesh->space.particles->n + 7) / 8 * 8, used = 0;
+  size_t nodes = mesh->grid.stored, n = mesh->space.particles->n, used = 0;
 #define PLACE(array, count, length) used += hand_out(array, count, length, block ? block + used : NULL)
   PLACE(&mesh->mass, 1, nodes);
   PLACE(mesh->v, dim, nodes);
@@ -47,6 +49,7 @@ static size_t place_arrays(struct gx_mesh *mesh, double *block)
   PLACE(mesh->x, dim, n);
   PLACE(mesh->half, dim, n);
   PLACE(mesh->T, dim * dim, n);
+  PLACE(mesh->body, dim, n);
   PLACE(mesh->opened, dim, n);
   PLACE(mesh->opened_nodes, dim, nodes);
   PLACE(mesh->gathered_a, dim, n);
@@ -113,11 +116,14 @@ GX_CLONES static bool move(size_t n, const double *restrict X, const double *res
   return !outside;
 }
 
-static enum gx_status report_outside(struct gx_mesh *mesh, int d, double limit)
+/* Farther than this, positions on a periodic grid mean nothing; past a fixed end, more than this is not round-off. */
+static const double far = 1e6, edge = 1e-12;
+
+static enum gx_status report_outside(struct gx_mesh *mesh, int d)
 {
   const double *x = mesh->x[d];
   size_t p = 0;
-  while (mesh->grid.axis[d].periodic ? fabs(x[p]) <= limit : x[p] >= 0 && x[p] <= 1) p++;
+  while (mesh->grid.axis[d].periodic ? fabs(x[p]) <= far : x[p] >= -edge && x[p] <= 1 + edge) p++;
   if (mesh->grid.axis[d].periodic || !isfinite(x[p]))
     return gx_status_set(mesh->space.outcome, GX_UNSTABLE, (long)p, "the position of a particle is %g", x[p]);
   return gx_status_set(mesh->space.outcome, GX_LEFT_DOMAIN, (long)p, "a particle is at %.6g, outside the domain [0, 1]", x[p]);
@@ -137,13 +143,13 @@ static enum gx_status weigh(struct gx_mesh *mesh, double *const *u, double *cons
 {
   const struct gx_particles *particles = mesh->space.particles;
   const struct gx_basis *basis = mesh->options.basis;
-  const double far = 1e6;
   size_t n = particles->n;
   for (int d = 0; d < mesh->grid.dim; d++) {
     const struct gx_axis *axis = &mesh->grid.axis[d];
     const double *x = particles->X[d], *half = domains(mesh, d, F, frozen);
     if (u) {
-      if (!move(n, x, u[d], axis->periodic ? -far : 0, axis->periodic ? far : 1, mesh->x[d])) return report_outside(mesh, d, far);
+      if (!move(n, x, u[d], axis->periodic ? -far : -edge, axis->periodic ? far : 1 + edge, mesh->x[d]))
+        return report_outside(mesh, d);
       x = mesh->x[d];
     }
     long wide = basis->evaluate(axis, n, x, half, mesh->weights.first[d], mesh->weights.S[d], mesh->weights.D[d]);
@@ -210,14 +216,22 @@ void gx_mesh_project(struct gx_mesh *mesh, double *const *value, double *const *
   solve_mass(mesh, field);
 }
 
+GX_CLONES static void multiply(size_t n, const double *restrict a, const double *restrict b, double *restrict product)
+{
+  for (size_t p = 0; p < n; p++) product[p] = a[p] * b[p];
+}
+
 void gx_mesh_accelerate(struct gx_mesh *mesh, double t)
 {
   struct gx_particles *particles = mesh->space.particles;
   const struct gx_posed *posed = mesh->space.posed;
   bool loaded = posed->problem->body;
   if (loaded) posed->problem->body(posed, t, particles->b);
-  for (int d = 0; d < mesh->grid.dim; d++) zero(mesh, mesh->a[d]);
-  gx_transfer_scatter_force(&mesh->weights, mesh->T, particles->m, loaded ? particles->b : NULL, mesh->a);
+  for (int d = 0; d < mesh->grid.dim; d++) {
+    zero(mesh, mesh->a[d]);
+    if (loaded) multiply(particles->n, particles->m, particles->b[d], mesh->body[d]);
+  }
+  gx_transfer_scatter_force(&mesh->weights, mesh->T, loaded ? mesh->body : NULL, mesh->a);
   solve_mass(mesh, mesh->a);
 }
 

@@ -21,7 +21,8 @@ struct gx_mesh {
   double *u[GX_MAX_DIM]; /* m; moving mesh only */
   /* scratch, [n] */
   double *x[GX_MAX_DIM], *half[GX_MAX_DIM];
-  double *T[GX_MAX_TENSOR];         /* what the force scatters */
+  double *T[GX_MAX_TENSOR];         /* what the force scatters by gradients */
+  double *body[GX_MAX_DIM];         /* what it scatters by weights: body force on a particle, N */
   double *opened[GX_MAX_DIM];       /* y of GX_OPEN, at particles */
   double *opened_nodes[GX_MAX_DIM]; /* the same at nodes, [grid.stored] */
   double *gathered_a[GX_MAX_DIM], *gathered_v[GX_MAX_DIM];

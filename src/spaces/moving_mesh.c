@@ -37,15 +37,17 @@ static enum gx_status project(struct gx_space *space)
   return GX_OK;
 }
 
+GX_CLONES static void add_one(size_t n, double *F)
+{
+  for (size_t p = 0; p < n; p++) F[p] += 1;
+}
+
 static void deformation_gradient(struct gx_mesh *mesh)
 {
   struct gx_particles *particles = mesh->space.particles;
   int dim = particles->dim;
   gx_transfer_gather_gradient(&mesh->weights, mesh->u, particles->F);
-  for (int d = 0; d < dim; d++) {
-    double *F = particles->F[d * dim + d];
-    for (size_t p = 0; p < particles->n; p++) F[p] += 1;
-  }
+  for (int d = 0; d < dim; d++) add_one(particles->n, particles->F[d * dim + d]);
 }
 
 GX_CLONES static void nominal(size_t n, const double *restrict V0, const double *restrict P, double *restrict T)

@@ -71,26 +71,30 @@ static enum gx_status accelerate(struct gx_space *space, double t)
   return GX_OK;
 }
 
-/* rate_F = L F, with L the velocity gradient; L and rate_F may share arrays. */
-GX_CORE void stretch_points(const int dim, size_t n, double *const *L, double *const *F, double *const *rate_F)
+/* L <- L F: from the velocity gradient to the rate of F. */
+GX_CORE void stretch_points(const int dim, size_t n, double *const *F, double *const *L)
 {
-  for (size_t p = 0; p < n; p++) {
-    double l[GX_MAX_TENSOR], f[GX_MAX_TENSOR], rate[GX_MAX_TENSOR];
-    gx_tensor_load(dim, L, p, l);
-    gx_tensor_load(dim, F, p, f);
-    for (int i = 0; i < dim; i++)
+  const double *f[GX_MAX_TENSOR];
+  double *restrict l[GX_MAX_TENSOR];
+  for (int k = 0; k < dim * dim; k++) {
+    f[k] = F[k];
+    l[k] = L[k];
+  }
+  for (size_t p = 0; p < n; p++)
+    for (int i = 0; i < dim; i++) {
+      double row[GX_MAX_DIM];
+      for (int k = 0; k < dim; k++) row[k] = l[i * dim + k][p];
       for (int j = 0; j < dim; j++) {
         double sum = 0;
-        for (int k = 0; k < dim; k++) sum += l[i * dim + k] * f[k * dim + j];
-        rate[i * dim + j] = sum;
+        for (int k = 0; k < dim; k++) sum += row[k] * f[k * dim + j][p];
+        l[i * dim + j][p] = sum;
       }
-    gx_tensor_store(dim, rate_F, p, rate);
-  }
+    }
 }
 
-static void stretch(int dimension, size_t n, double *const *L, double *const *F, double *const *rate_F)
+GX_CLONES static void stretch(int dimension, size_t n, double *const *F, double *const *L)
 {
-  GX_FOR_DIM(dimension, stretch_points(dim, n, L, F, rate_F))
+  GX_FOR_DIM(dimension, stretch_points(dim, n, F, L))
 }
 
 static void rate_of_stress(struct gx_space *space, double *const *rate_F, double *const *rate_P)
@@ -113,6 +117,18 @@ static void kick_particles(struct gx_mesh *mesh, double kick)
   }
 }
 
+/* What an advance needs of the nodes, in one pass when it is all. */
+static void gather(struct gx_mesh *mesh, bool acceleration, bool velocity, bool gradient)
+{
+  if (acceleration && velocity && gradient) {
+    gx_transfer_gather_all(&mesh->weights, mesh->a, mesh->v, mesh->gathered_a, mesh->gathered_v, mesh->gradient);
+    return;
+  }
+  if (acceleration) gx_transfer_gather(&mesh->weights, mesh->a, mesh->gathered_a);
+  if (velocity) gx_transfer_gather(&mesh->weights, mesh->v, mesh->gathered_v);
+  if (gradient) gx_transfer_gather_gradient(&mesh->weights, mesh->v, mesh->gradient);
+}
+
 static void advance(struct gx_space *space, double kick, double strain, double drift)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
@@ -121,10 +137,11 @@ static void advance(struct gx_space *space, double kick, double strain, double d
   size_t n = particles->n;
   if (kick != 0)
     for (int d = 0; d < dim; d++) gx_vector_add(mesh->grid.stored, kick, mesh->a[d], mesh->v[d]);
-  gx_transfer_gather_all(&mesh->weights, mesh->a, mesh->v, mesh->gathered_a, mesh->gathered_v, mesh->gradient);
+  bool blend = mesh->options.pic || mesh->options.flip < 1;
+  gather(mesh, kick != 0, drift != 0 || (kick != 0 && blend), strain != 0);
   if (kick != 0) kick_particles(mesh, kick);
   if (strain != 0) {
-    stretch(dim, n, mesh->gradient, particles->F, mesh->gradient);
+    stretch(dim, n, particles->F, mesh->gradient);
     if (mesh->options.stress_rate) {
       rate_of_stress(space, mesh->gradient, mesh->rate_P);
       for (int k = 0; k < dim * dim; k++) gx_vector_add(n, strain, mesh->rate_P[k], particles->P[k]);
@@ -163,7 +180,7 @@ static void strain_back(struct gx_mesh *mesh, double span)
   gx_transfer_gather_gradient(&mesh->weights, mesh->v, mesh->gradient);
   GX_FOR_DIM(dimension, stretch_back_points(dim, n, span, mesh->gradient, particles->F))
   if (!mesh->options.stress_rate) return;
-  stretch(dimension, n, mesh->gradient, particles->F, mesh->gradient);
+  stretch(dimension, n, particles->F, mesh->gradient);
   rate_of_stress(&mesh->space, mesh->gradient, mesh->rate_P);
   for (int k = 0; k < dimension * dimension; k++) gx_vector_add(n, span, mesh->rate_P[k], particles->P[k]);
 }
@@ -221,7 +238,7 @@ static void rates(struct gx_space *space, double *const *rate)
   if (mesh->options.particle_motion)
     for (int d = 0; d < dim; d++)
       for (size_t p = 0; p < n; p++) rate_u[d][p] = particles->v[d][p];
-  stretch(dim, n, rate_F, particles->F, rate_F);
+  stretch(dim, n, particles->F, rate_F);
   rate += 2 * dim + dim * dim;
   if (mesh->options.stress_rate) {
     rate_of_stress(space, rate_F, rate);

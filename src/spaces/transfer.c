@@ -1,40 +1,59 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cores are written for any dimension and support and inlined with both constant for the common supports. */
+/* Cores are written for any dimension and support and inlined with both constant for the common supports. They visit a particle's
+ * nodes row by row along the first direction, in which nodes are consecutive: what does not change in a row is multiplied once. */
 #include "transfer.h"
+
+#include <gridcross/basis.h>
 
 #include "../core/kernel.h"
 
-/* Visits the nodes of particle p: `node` is the index in a nodal field, `k` the slot per direction. */
-#define FOR_NODES(dim, s, w, p)                                                                                                  \
-  for (int k2 = 0; k2 < ((dim) > 2 ? (s) : 1); k2++)                                                                             \
-    for (int k1 = 0; k1 < ((dim) > 1 ? (s) : 1); k1++)                                                                           \
-      for (int k0 = 0; k0 < (s); k0++)
-
-struct slots {
-  int k[GX_MAX_DIM];
+/* Weights of one particle: of each direction, and products over the directions after the first in the row at hand. */
+struct stencil {
+  size_t first; /* node */
+  double S[GX_MAX_DIM][GX_MAX_SUPPORT], D[GX_MAX_DIM][GX_MAX_SUPPORT];
 };
-#define SLOTS ((struct slots){{k0, k1, k2}})
 
-GX_CORE size_t node_of(const int dim, const struct gx_weights *w, size_t p, struct slots slots)
+struct row {
+  size_t node;              /* first node of the row */
+  double W;                 /* product of S */
+  double slope[GX_MAX_DIM]; /* the same with D along direction e >= 1 */
+};
+
+GX_CORE void load_stencil(const int dim, const int s, const struct gx_weights *w, size_t p, const bool slopes,
+                          struct stencil *stencil)
 {
-  size_t node = 0;
-  for (int d = 0; d < dim; d++) node += (size_t)(w->first[d][p] + slots.k[d]) * (d ? w->stride[d] : 1);
-  return node;
+  stencil->first = 0;
+  for (int d = 0; d < dim; d++) {
+    stencil->first += (size_t)w->first[d][p] * (d ? w->stride[d] : 1);
+    for (int k = 0; k < s; k++) {
+      stencil->S[d][k] = w->S[d][(size_t)k * w->n + p];
+      if (slopes) stencil->D[d][k] = w->D[d][(size_t)k * w->n + p];
+    }
+  }
 }
 
-GX_CORE double weight_of(const int dim, const struct gx_weights *w, size_t p, struct slots slots)
+GX_CORE struct row row_of(const int dim, const struct gx_weights *w, const struct stencil *stencil, int k1, int k2,
+                          const bool slopes)
 {
-  double weight = w->S[0][(size_t)slots.k[0] * w->n + p];
-  for (int d = 1; d < dim; d++) weight *= w->S[d][(size_t)slots.k[d] * w->n + p];
-  return weight;
+  const int k[GX_MAX_DIM] = {0, k1, k2};
+  struct row row = {.node = stencil->first, .W = 1, .slope = {1, 1, 1}};
+  for (int d = 1; d < dim; d++) {
+    row.node += (size_t)k[d] * w->stride[d];
+    for (int e = 1; slopes && e < dim; e++) row.slope[e] *= (e == d ? stencil->D : stencil->S)[d][k[d]];
+    row.W *= stencil->S[d][k[d]];
+  }
+  return row;
 }
 
-GX_CORE double slope_of(const int dim, const struct gx_weights *w, size_t p, struct slots slots, int e)
-{
-  double slope = (e == 0 ? w->D : w->S)[0][(size_t)slots.k[0] * w->n + p];
-  for (int d = 1; d < dim; d++) slope *= (e == d ? w->D : w->S)[d][(size_t)slots.k[d] * w->n + p];
-  return slope;
-}
+#define FOR_ROWS(dim, s)                                                                                                         \
+  for (int k2 = 0; k2 < ((dim) > 2 ? (s) : 1); k2++)                                                                             \
+    for (int k1 = 0; k1 < ((dim) > 1 ? (s) : 1); k1++)
+
+/* Visits all particles; in 1-D from distant parts of the line in turn, so that adding to a node does not wait for the particle
+ * before to have done so. */
+#define FOR_PARTICLES(dim, n, p)                                                                                                 \
+  for (size_t part = (dim) == 1 ? ((n) + 3) / 4 : (n), start = 0; start < part; start++)                                         \
+    for (size_t p = start; p < (n); p += part)
 
 /* Calls core(dim, support, weights, ...) with constants where the support is a common one. */
 #define SPECIALISE(core, weights, ...)                                                                                           \
@@ -68,22 +87,24 @@ GX_CORE void scatter(const int dim, const int s, const struct gx_weights *w, con
     out[d] = value ? moment[d] : total;
     in[d] = value ? value[d] : m;
   }
-  for (size_t p = 0; p < w->n; p++) {
+  FOR_PARTICLES(dim, w->n, p)
+  {
+    struct stencil stencil;
+    load_stencil(dim, s, w, p, false, &stencil);
     double mass = m[p], momentum[GX_MAX_DIM];
     for (int d = 0; d < dim; d++) momentum[d] = mass * in[d][p];
-    FOR_NODES(dim, s, w, p)
+    FOR_ROWS(dim, s)
     {
-      size_t node = node_of(dim, w, p, SLOTS);
-      double S = weight_of(dim, w, p, SLOTS);
-      if (total) total[node] += mass * S;
-      if (value)
-        for (int d = 0; d < dim; d++) out[d][node] += momentum[d] * S;
+      const struct row row = row_of(dim, w, &stencil, k1, k2, false);
+      for (int k = 0; total && k < s; k++) total[row.node + (size_t)k] += mass * row.W * stencil.S[0][k];
+      for (int d = 0; value && d < dim; d++)
+        for (int k = 0; k < s; k++) out[d][row.node + (size_t)k] += momentum[d] * row.W * stencil.S[0][k];
     }
   }
 }
 
-void gx_transfer_scatter(const struct gx_weights *weights, const double *m, double *const *value, double *total,
-                         double *const *moment)
+GX_CLONES void gx_transfer_scatter(const struct gx_weights *weights, const double *m, double *const *value, double *total,
+                                   double *const *moment)
 {
   if (!value)
     SPECIALISE(scatter, weights, m, NULL, total, NULL);
@@ -93,88 +114,102 @@ void gx_transfer_scatter(const struct gx_weights *weights, const double *m, doub
     SPECIALISE(scatter, weights, m, value, NULL, moment);
 }
 
-GX_CORE void scatter_force(const int dim, const int s, const struct gx_weights *w, double *const *T, const double *m,
-                           double *const *b, double *const *force)
+GX_CORE void scatter_force(const int dim, const int s, const struct gx_weights *w, double *const *T, double *const *body,
+                           double *const *force)
 {
   double *out[GX_MAX_DIM];
-  const double *stress[GX_MAX_TENSOR];
-  for (int d = 0; d < dim; d++) out[d] = force[d];
+  const double *stress[GX_MAX_TENSOR], *in[GX_MAX_DIM];
+  for (int d = 0; d < dim; d++) {
+    out[d] = force[d];
+    in[d] = body ? body[d] : NULL;
+  }
   for (int k = 0; k < dim * dim; k++) stress[k] = T[k];
-  for (size_t p = 0; p < w->n; p++) {
+  FOR_PARTICLES(dim, w->n, p)
+  {
+    struct stencil stencil;
+    load_stencil(dim, s, w, p, true, &stencil);
     double load[GX_MAX_DIM], t[GX_MAX_TENSOR];
-    for (int d = 0; d < dim; d++) load[d] = b ? m[p] * b[d][p] : 0;
+    for (int d = 0; d < dim; d++) load[d] = body ? in[d][p] : 0;
     for (int k = 0; k < dim * dim; k++) t[k] = stress[k][p];
-    FOR_NODES(dim, s, w, p)
+    FOR_ROWS(dim, s)
     {
-      size_t node = node_of(dim, w, p, SLOTS);
-      double S = b ? weight_of(dim, w, p, SLOTS) : 0;
-      double slope[GX_MAX_DIM];
-      for (int e = 0; e < dim; e++) slope[e] = slope_of(dim, w, p, SLOTS, e);
+      const struct row row = row_of(dim, w, &stencil, k1, k2, true);
       for (int d = 0; d < dim; d++) {
-        double f = b ? load[d] * S : 0;
-        for (int e = 0; e < dim; e++) f += t[d * dim + e] * slope[e];
-        out[d][node] += f;
+        double along = t[d * dim] * row.W, across = load[d] * row.W;
+        for (int e = 1; e < dim; e++) across += t[d * dim + e] * row.slope[e];
+        for (int k = 0; k < s; k++) {
+          double f = along * stencil.D[0][k];
+          out[d][row.node + (size_t)k] += body || dim > 1 ? f + across * stencil.S[0][k] : f;
+        }
       }
     }
   }
 }
 
-void gx_transfer_scatter_force(const struct gx_weights *weights, double *const *T, const double *m, double *const *b,
-                               double *const *force)
+GX_CLONES void gx_transfer_scatter_force(const struct gx_weights *weights, double *const *T, double *const *body,
+                                         double *const *force)
 {
-  if (b)
-    SPECIALISE(scatter_force, weights, T, m, b, force);
+  if (body)
+    SPECIALISE(scatter_force, weights, T, body, force);
   else
-    SPECIALISE(scatter_force, weights, T, m, NULL, force);
+    SPECIALISE(scatter_force, weights, T, NULL, force);
 }
 
-/* a, value: S-sums of a; v, velocity: S-sums of v; gradient: D-sums of v. A NULL pair is skipped. */
-GX_CORE void gather(const int dim, const int s, const struct gx_weights *w, double *const *a, double *const *acceleration,
-                    double *const *v, double *const *velocity, double *const *gradient)
+/* take_a: acceleration: S-sums of a; take_v: velocity: S-sums of v; take_slopes: gradient: D-sums of v. */
+GX_CORE void gather(const int dim, const int s, const struct gx_weights *w, const bool take_a, double *const *a,
+                    double *const *acceleration, const bool take_v, double *const *v, double *const *velocity,
+                    const bool take_slopes, double *const *gradient)
 {
   const double *field_a[GX_MAX_DIM], *field_v[GX_MAX_DIM];
   double *out_a[GX_MAX_DIM], *out_v[GX_MAX_DIM], *out_g[GX_MAX_TENSOR];
   for (int d = 0; d < dim; d++) {
-    field_a[d] = a ? a[d] : NULL;
-    out_a[d] = a ? acceleration[d] : NULL;
-    field_v[d] = v ? v[d] : NULL;
-    out_v[d] = velocity ? velocity[d] : NULL;
+    field_a[d] = take_a ? a[d] : NULL;
+    out_a[d] = take_a ? acceleration[d] : NULL;
+    field_v[d] = take_v || take_slopes ? v[d] : NULL;
+    out_v[d] = take_v ? velocity[d] : NULL;
   }
-  for (int k = 0; k < dim * dim; k++) out_g[k] = gradient ? gradient[k] : NULL;
+  for (int k = 0; k < dim * dim; k++) out_g[k] = take_slopes ? gradient[k] : NULL;
   for (size_t p = 0; p < w->n; p++) {
+    struct stencil stencil;
+    load_stencil(dim, s, w, p, take_slopes, &stencil);
     double sum_a[GX_MAX_DIM] = {0}, sum_v[GX_MAX_DIM] = {0}, sum_g[GX_MAX_TENSOR] = {0};
-    FOR_NODES(dim, s, w, p)
+    FOR_ROWS(dim, s)
     {
-      size_t node = node_of(dim, w, p, SLOTS);
-      double S = a || velocity ? weight_of(dim, w, p, SLOTS) : 0;
+      const struct row row = row_of(dim, w, &stencil, k1, k2, take_slopes);
       for (int d = 0; d < dim; d++) {
-        if (a) sum_a[d] += S * field_a[d][node];
-        if (velocity) sum_v[d] += S * field_v[d][node];
-        if (gradient)
-          for (int e = 0; e < dim; e++) sum_g[d * dim + e] += field_v[d][node] * slope_of(dim, w, p, SLOTS, e);
+        double row_a = 0, row_v = 0, row_g = 0;
+        for (int k = 0; k < s; k++) {
+          size_t node = row.node + (size_t)k;
+          if (take_a) row_a += stencil.S[0][k] * field_a[d][node];
+          if (take_v || (take_slopes && dim > 1)) row_v += stencil.S[0][k] * field_v[d][node];
+          if (take_slopes) row_g += stencil.D[0][k] * field_v[d][node];
+        }
+        sum_a[d] += row.W * row_a;
+        sum_v[d] += row.W * row_v;
+        sum_g[d * dim] += row.W * row_g;
+        for (int e = 1; e < dim; e++) sum_g[d * dim + e] += row.slope[e] * row_v;
       }
     }
     for (int d = 0; d < dim; d++) {
-      if (a) out_a[d][p] = sum_a[d];
-      if (velocity) out_v[d][p] = sum_v[d];
+      if (take_a) out_a[d][p] = sum_a[d];
+      if (take_v) out_v[d][p] = sum_v[d];
     }
-    if (gradient)
-      for (int k = 0; k < dim * dim; k++) out_g[k][p] = sum_g[k];
+    for (int k = 0; take_slopes && k < dim * dim; k++) out_g[k][p] = sum_g[k];
   }
 }
 
-void gx_transfer_gather(const struct gx_weights *weights, double *const *field, double *const *value)
+GX_CLONES void gx_transfer_gather(const struct gx_weights *weights, double *const *field, double *const *value)
 {
-  SPECIALISE(gather, weights, field, value, NULL, NULL, NULL);
+  SPECIALISE(gather, weights, false, NULL, NULL, true, field, value, false, NULL);
 }
 
-void gx_transfer_gather_gradient(const struct gx_weights *weights, double *const *field, double *const *gradient)
+GX_CLONES void gx_transfer_gather_gradient(const struct gx_weights *weights, double *const *field, double *const *gradient)
 {
-  SPECIALISE(gather, weights, NULL, NULL, field, NULL, gradient);
+  SPECIALISE(gather, weights, false, NULL, NULL, false, field, NULL, true, gradient);
 }
 
-void gx_transfer_gather_all(const struct gx_weights *weights, double *const *a, double *const *v, double *const *acceleration,
-                            double *const *velocity, double *const *gradient)
+GX_CLONES void gx_transfer_gather_all(const struct gx_weights *weights, double *const *a, double *const *v,
+                                      double *const *acceleration, double *const *velocity, double *const *gradient)
 {
-  SPECIALISE(gather, weights, a, acceleration, v, velocity, gradient);
+  SPECIALISE(gather, weights, true, a, acceleration, true, v, velocity, true, gradient);
 }

@@ -61,6 +61,14 @@ static void read_method(struct gx_simulation *simulation, const struct gx_case *
   options->stress_rate = is(one, GX_METHOD_STRESS, "rate");
 }
 
+/* Whether a step takes nodal velocity, which belongs to its first weights, to particles by those of another position. */
+static bool mixes_weights(const struct gx_clock *clock)
+{
+  for (const struct gx_row *row = clock->rows; row && row->primitive != GX_END; row++)
+    if (row->primitive == GX_MASS) return true;
+  return false;
+}
+
 static enum gx_status refuse(const struct gx_simulation *simulation, struct gx_outcome *outcome)
 {
   const struct gx_problem_options *problem = &simulation->problem_options;
@@ -78,6 +86,11 @@ static enum gx_status refuse(const struct gx_simulation *simulation, struct gx_o
   if (simulation->clock->tableau && (options->pic || options->flip < 1))
     return gx_status_set(outcome, GX_REFUSED, -1,
                          "%s advances rates, and PIC is not one: use transfer flip with flip 1, or a clock of kicks",
+                         simulation->clock->name);
+  if (simulation->kind->fixed_grid && mixes_weights(simulation->clock) && (options->pic || options->flip < 1))
+    return gx_status_set(outcome, GX_REFUSED, -1,
+                         "PIC with %s would not keep momentum: its nodal velocity and its last weights are of two positions; use "
+                         "transfer flip with flip 1",
                          simulation->clock->name);
   return GX_OK;
 }

@@ -85,7 +85,7 @@ class Lines(Case):
         for label in {label for label, _ in cases}:
             order = math.log2(float(cases[label, "16"]) / float(cases[label, "32"]))
             self.assertIn(f"{label} (order {order:.1f})", texts)
-        marks = re.findall(r"<use xlink:href='#gpPt", (self.dir / "fig.svg").read_text())
+        marks = re.findall(r"<use xlink:href='#gpPt\d+' transform='translate", (self.dir / "fig.svg").read_text())
         self.assertEqual(len(marks), 12 + 4)  # points, and samples in the legend
         script = (self.dir / "fig.gp").read_text()
         self.assertIn("set logscale x\n", script)

@@ -1,16 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Comparisons: axes, cells and orders computed by hand. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include <gridcross/compare.h>
 
-#include "../near.h"
+#include "check.h"
 
 enum { COLUMNS = 8 };
 
