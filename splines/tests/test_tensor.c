@@ -48,8 +48,8 @@ static size_t total(int dim, const size_t *shape)
 static void grid(int dim, const enum gx_spline_ends *ends, const int *degree, const double *tolerance)
 {
   uint64_t state = 17;
-  struct gx_spline_interpolant *s[3];
-  struct gx_spline_points *points[3];
+  struct gx_spline_interpolant *s[3] = {0};
+  struct gx_spline_points *points[3] = {0};
   double site[3][ROOM], x[3][ROOM];
   for (int d = 0; d < dim; d++) {
     jittered_sites(SITES[d], 0, 1, 0.2, &state, site[d]);
