@@ -17,11 +17,11 @@ static double now(void)
   return (double)t.tv_sec * 1e9 + (double)t.tv_nsec;
 }
 
-/* The best of five runs of `repeats` each, in ns per point. */
+/* The best of forty runs of `repeats` each, in ns per point. */
 #define TIME(result, statement)                                                                                                  \
   do {                                                                                                                           \
     result = HUGE_VAL;                                                                                                           \
-    for (int time_i = 0; time_i < 5; time_i++) {                                                                                 \
+    for (int time_i = 0; time_i < 40; time_i++) {                                                                                 \
       double time_start = now();                                                                                                 \
       for (size_t time_r = 0; time_r < repeats; time_r++) statement;                                                             \
       result = fmin(result, (now() - time_start) / (double)(repeats * n));                                                       \
@@ -35,7 +35,7 @@ static void gsl_points(const struct gx_spline_knots *knots, size_t n, const doub
   for (size_t i = 0; i < w->knots->size; i++) gsl_vector_set(w->knots, i, knots->knot[i]);
   gsl_vector *B = gsl_vector_alloc(p + 1);
   gsl_matrix *dB = gsl_matrix_alloc(p + 1, 2);
-  const size_t repeats = 1 + 100000 / n;
+  const size_t repeats = 1 + 10000 / n;
   size_t first, last;
   TIME(out[0], for (size_t i = 0; i < n; i++) gsl_bspline_eval_nonzero(x[i], B, &first, &last, w));
   TIME(out[1], for (size_t i = 0; i < n; i++) gsl_bspline_deriv_eval_nonzero(x[i], 1, dB, &first, &last, w));
@@ -60,7 +60,7 @@ static void line(enum gx_spline_ends ends, int degree, size_t n)
     exit(1);
   }
   double *c = calloc(s->knots->functions, sizeof *c);
-  const size_t repeats = 1 + 200000 / n;
+  const size_t repeats = 1 + 20000 / n;
   double knots, sites, solve, set_values, set_slopes, product, gsl[2] = {NAN, NAN};
   TIME(knots, gx_spline_knots_average(s->knots, x, 0, 1, NULL));
   TIME(sites, gx_spline_interpolant_set_sites(s, x, 0, 1, NULL));
@@ -84,7 +84,7 @@ static void circulant(int degree, size_t n)
   if (gx_spline_circulant_create(&c, degree, n, 1, NULL)) exit(1);
   double *value = calloc(n, sizeof *value), *out = calloc(n + 2 * (size_t)degree, sizeof *out), solve, slope;
   for (size_t i = 0; i < n; i++) value[i] = sin(6.28 * (double)i / (double)n);
-  const size_t repeats = 1 + 200000 / n;
+  const size_t repeats = 1 + 20000 / n;
   TIME(solve, gx_spline_circulant_solve(c, value, out));
   TIME(slope, gx_spline_circulant_derivative(c, 1, value, out));
   printf("circulant %d %6zu  solve %.1f, derivative at the sites from values %.1f\n", degree, n, solve, slope);
