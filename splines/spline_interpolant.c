@@ -70,15 +70,15 @@ GX_SPLINE_CORE long assemble(const int degree, struct gx_spline_interpolant *s, 
   size_t piece = (size_t)degree;
   double *diagonal = s->band + degree;
   for (ptrdiff_t i = 0; i < n; i++, diagonal += 2 * degree + 1) {
-    double S[GX_SPLINE_MAX_DEGREE + 1];
+    double S[GX_SPLINE_MAX_DEGREE + 1] = {0};
     piece = gx_spline_basis_locate(knots, site[i], piece);
     gx_spline_basis_values(degree, knots, piece, site[i], S);
     const ptrdiff_t offset = (ptrdiff_t)piece - degree - g - i; /* of the first function from the diagonal */
     if (offset > 0 || offset < -degree || !(S[-offset] > 0)) return (long)i;
     for (int d = -degree; d <= degree; d++) diagonal[d] = 0;
     int begin = 0, end = degree;
-    while (S[begin] < NOTHING && begin < -offset) begin++;
-    while (S[end] < NOTHING && end > -offset) end--;
+    while (begin < -offset && S[begin] < NOTHING) begin++;
+    while (end > -offset && S[end] < NOTHING) end--;
     if (periodic || (i + offset >= 0 && i + offset + degree < n)) {
       for (int j = 0; j <= degree; j++) diagonal[offset + j] = S[j];
       if (-(offset + begin) > lower) lower = (int)-(offset + begin);
