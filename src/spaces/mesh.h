@@ -44,6 +44,8 @@ enum gx_status gx_mesh_weigh_frozen(struct gx_mesh *mesh, double *const *u);
 enum gx_status gx_mesh_assemble(struct gx_mesh *mesh, double *const *value, double *const *field);
 /* field = M^-1 sum_p m_p value_p S_ip with the mass assembled last. */
 void gx_mesh_project(struct gx_mesh *mesh, double *const *value, double *const *field);
+/* P of the particles from their F, unless it is integrated by rate; GX_TANGLED where det F <= 0, either way. */
+enum gx_status gx_mesh_stress(struct gx_mesh *mesh);
 /* Nodal acceleration from the forces of T and of the problem's body force at time t. */
 void gx_mesh_accelerate(struct gx_mesh *mesh, double t);
 double gx_mesh_kinetic(const struct gx_space *space);

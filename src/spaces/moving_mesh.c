@@ -59,15 +59,9 @@ static enum gx_status accelerate(struct gx_space *space, double t)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
   struct gx_particles *particles = space->particles;
-  const struct gx_posed *posed = space->posed;
   int dim = particles->dim;
-  if (!mesh->options.stress_rate) {
-    deformation_gradient(mesh);
-    long tangled = posed->problem->material->piola(&posed->options.moduli, dim, particles->n, particles->F, particles->P);
-    if (tangled >= 0)
-      return gx_status_set(space->outcome, GX_TANGLED, tangled, "det F of a particle is %g",
-                           gx_particles_jacobian(particles, (size_t)tangled));
-  }
+  deformation_gradient(mesh);
+  GX_TRY(gx_mesh_stress(mesh));
   for (int k = 0; k < dim * dim; k++) nominal(particles->n, particles->V0, particles->P[k], mesh->T[k]);
   gx_mesh_accelerate(mesh, t);
   return GX_OK;

@@ -58,15 +58,8 @@ GX_CLONES static void kirchhoff(const struct gx_particles *particles, double *co
 static enum gx_status accelerate(struct gx_space *space, double t)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
-  struct gx_particles *particles = space->particles;
-  if (!mesh->options.stress_rate) {
-    long tangled = space->posed->problem->material->piola(&space->posed->options.moduli, particles->dim, particles->n,
-                                                          particles->F, particles->P);
-    if (tangled >= 0)
-      return gx_status_set(space->outcome, GX_TANGLED, tangled, "det F of a particle is %g",
-                           gx_particles_jacobian(particles, (size_t)tangled));
-  }
-  kirchhoff(particles, mesh->T);
+  GX_TRY(gx_mesh_stress(mesh));
+  kirchhoff(space->particles, mesh->T);
   gx_mesh_accelerate(mesh, t);
   return GX_OK;
 }
