@@ -185,6 +185,7 @@ static bool phases_well_formed(const char *text, const struct gx_value *value)
 
 #define RANGE(from, to) .least = from, .most = to
 #define POSITIVE        RANGE(0, INFINITY), .above_least = true
+#define PHYSICAL        RANGE(1e-100, 1e100) /* its squares in errors and energies neither overflow nor vanish */
 
 const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
     [GX_PROBLEM_NAME] = {.path = "problem.name",
@@ -211,14 +212,14 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
     [GX_PROBLEM_MODULUS] = {.path = "problem.modulus",
                             .type = GX_REAL,
                             .unit = "Pa",
-                            POSITIVE,
+                            PHYSICAL,
                             .standard = "1e4",
                             .help = "Young's modulus E",
                             .why = "with density 1 a wave crosses the domain in 0.01 s"},
     [GX_PROBLEM_DENSITY] = {.path = "problem.density",
                             .type = GX_REAL,
                             .unit = "kg/m^dim",
-                            POSITIVE,
+                            PHYSICAL,
                             .standard = "1",
                             .applies = is_continuum,
                             .help = "density of the undeformed body",

@@ -177,13 +177,29 @@ static void failures_are_results(void **state)
   }
 }
 
+/* However short the end is beside the step, and however large a phase: the time asked for is run. */
+static void extremes_are_run(void **state)
+{
+  (void)state;
+  const char *const landing[] = {"time.landing=exact", "time.landing=past"};
+  for (int i = 0; i < 2; i++) {
+    struct gx_case one = case_of("time.dt=1e3", "time.end=1e-8", landing[i], "problem.amplitude=0");
+    struct gx_result result = case_result(&one);
+    CHECK(result.steps == 1 && result.time == (i ? 1e3 : 1e-8), "%g steps to %.17g", result.steps, result.time);
+  }
+  struct gx_case turned = case_of("problem.name=axis-aligned", "problem.phases=1e308", "time.periods=0.1");
+  struct gx_case straight = case_of("problem.name=axis-aligned", "problem.phases=0", "time.periods=0.1");
+  double far = case_result(&turned).measured.last.error[GX_DISPLACEMENT][GX_RMS];
+  NEAR(far, case_result(&straight).measured.last.error[GX_DISPLACEMENT][GX_RMS], 0);
+}
+
 int main(void)
 {
   gsl_set_error_handler_off();
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_method_ends_well),         cmocka_unit_test(measuring_more_changes_nothing),
       cmocka_unit_test(repetition_gives_the_same_bits), cmocka_unit_test(a_wave_along_one_axis_is_the_bar),
-      cmocka_unit_test(failures_are_results),
+      cmocka_unit_test(failures_are_results),           cmocka_unit_test(extremes_are_run),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
