@@ -221,8 +221,9 @@ enum gx_status gx_mesh_stress(struct gx_mesh *mesh)
 {
   struct gx_particles *particles = mesh->space.particles;
   const struct gx_posed *posed = mesh->space.posed;
-  long tangled =
-      posed->problem->material->piola(&posed->options.moduli, particles->dim, particles->n, particles->F, particles->P);
+  /* stress by rate: only to see whether F still is a deformation */
+  double *const *P = mesh->options.stress_rate ? mesh->rate_P : particles->P;
+  long tangled = posed->problem->material->piola(&posed->options.moduli, particles->dim, particles->n, particles->F, P);
   if (tangled < 0) return GX_OK;
   return gx_status_set(mesh->space.outcome, GX_TANGLED, tangled, "det F of a particle is %g",
                        gx_particles_jacobian(particles, (size_t)tangled));

@@ -45,7 +45,7 @@ enum gx_status gx_mesh_weigh_frozen(struct gx_mesh *mesh, double *const *u);
 enum gx_status gx_mesh_assemble(struct gx_mesh *mesh, double *const *value, double *const *field);
 /* field = M^-1 sum_p m_p value_p S_ip with the mass assembled last. */
 void gx_mesh_project(struct gx_mesh *mesh, double *const *value, double *const *field);
-/* P(F) of every particle. */
+/* P of the particles from their F, unless it is integrated by rate; GX_TANGLED where det F <= 0, either way. */
 enum gx_status gx_mesh_stress(struct gx_mesh *mesh);
 /* v_p <- flip (v_p + kick S a) + (1 - flip) S v, from gathered_a and gathered_v; the latter is not looked at where flip is 1. */
 void gx_mesh_kick_particles(struct gx_mesh *mesh, double kick);

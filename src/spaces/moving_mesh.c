@@ -60,10 +60,8 @@ static enum gx_status accelerate(struct gx_space *space, double t)
   struct gx_mesh *mesh = (struct gx_mesh *)space;
   struct gx_particles *particles = space->particles;
   int dim = particles->dim;
-  if (!mesh->options.stress_rate) {
-    deformation_gradient(mesh);
-    GX_TRY(gx_mesh_stress(mesh));
-  }
+  deformation_gradient(mesh);
+  GX_TRY(gx_mesh_stress(mesh));
   for (int k = 0; k < dim * dim; k++) nominal(particles->n, particles->V0, particles->P[k], mesh->T[k]);
   gx_mesh_accelerate(mesh, t);
   return GX_OK;

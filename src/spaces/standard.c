@@ -59,7 +59,7 @@ GX_CLONES static void kirchhoff(const struct gx_particles *particles, double *co
 static enum gx_status accelerate(struct gx_space *space, double t)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
-  if (!mesh->options.stress_rate) GX_TRY(gx_mesh_stress(mesh));
+  GX_TRY(gx_mesh_stress(mesh));
   kirchhoff(space->particles, mesh->T);
   gx_mesh_accelerate(mesh, t);
   return GX_OK;

@@ -171,23 +171,57 @@ static int put_provenance(hid_t file, const struct gx_study *study)
   return H5Gclose(group) < 0 ? -1 : failed;
 }
 
+static int put_study(hid_t file, const struct gx_study *study, const struct gx_result *results, const struct gx_table *table)
+{
+  if (put_table(file, "table", table)) return -1;
+  if (put_histories(file, study, results)) return -1;
+  return put_provenance(file, study);
+}
+
+/* The whole file as bytes, owned by the caller: HDF5 that cannot write to a full disk leaves a file open which crashes at exit,
+ * so that it never touches the disk here. */
+static void *make_image(const struct gx_study *study, const struct gx_result *results, const struct gx_table *table, size_t *size)
+{
+  enum { GROWTH = 1 << 20 };
+  void *image = NULL;
+  hid_t file = -1, property = H5Pcreate(H5P_FILE_CREATE), access = H5Pcreate(H5P_FILE_ACCESS);
+  if (property >= 0 && access >= 0 && H5Pset_obj_track_times(property, false) >= 0 &&
+      H5Pset_fapl_core(access, GROWTH, false) >= 0)
+    file = H5Fcreate("study.h5", H5F_ACC_TRUNC, property, access);
+  if (file >= 0 && !put_study(file, study, results, table) && H5Fflush(file, H5F_SCOPE_GLOBAL) >= 0) {
+    ssize_t length = H5Fget_file_image(file, NULL, 0);
+    image = length > 0 ? malloc((size_t)length) : NULL;
+    *size = image ? (size_t)length : 0;
+    if (image && H5Fget_file_image(file, image, *size) != length) {
+      free(image);
+      image = NULL;
+    }
+  }
+  if (file >= 0) H5Fclose(file);
+  if (access >= 0) H5Pclose(access);
+  if (property >= 0) H5Pclose(property);
+  return image;
+}
+
+static int write_image(const char *path, const void *image, size_t size)
+{
+  FILE *out = fopen(path, "wb");
+  if (!out) return -1;
+  int failed = fwrite(image, 1, size, out) == size ? 0 : -1;
+  return fclose(out) ? -1 : failed;
+}
+
 int gx_hdf5_write(const char *path, const struct gx_study *study, const struct gx_result *results, const struct gx_table *table,
                   FILE *errors)
 {
   struct silence old = silence_begin();
-  int failed = -1;
-  hid_t file = -1, property = H5Pcreate(H5P_FILE_CREATE);
-  errno = 0;
-  if (property >= 0 && H5Pset_obj_track_times(property, false) >= 0) file = H5Fcreate(path, H5F_ACC_TRUNC, property, H5P_DEFAULT);
-  if (file >= 0) {
-    failed = put_table(file, "table", table);
-    if (!failed) failed = put_histories(file, study, results);
-    if (!failed) failed = put_provenance(file, study);
-    if (H5Fclose(file) < 0) failed = -1;
-  }
-  if (failed) fprintf(errors, "%s: cannot write: %s\n", path, errno ? strerror(errno) : "HDF5 failed");
-  if (property >= 0) H5Pclose(property);
+  size_t size = 0;
+  void *image = make_image(study, results, table, &size);
   silence_end(old);
+  errno = 0;
+  int failed = image ? write_image(path, image, size) : -1;
+  if (failed) fprintf(errors, "%s: cannot write: %s\n", path, errno ? strerror(errno) : "HDF5 failed");
+  free(image);
   return failed;
 }
 

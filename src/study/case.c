@@ -108,6 +108,7 @@ static enum gx_status march(struct run *run)
     result->steps = step;
     result->time = run->time;
     double kinetic = simulation->kind->kinetic(simulation->space);
+    if (isnan(kinetic)) return gx_status_set(&result->outcome, GX_UNSTABLE, -1, "a velocity is not a number");
     if (!(kinetic <= run->kinetic_limit))
       return gx_status_set(&result->outcome, GX_UNSTABLE, -1, "kinetic energy %.4g J, over 25 times the exact solution's",
                            kinetic);

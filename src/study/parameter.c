@@ -15,6 +15,7 @@
 
 #define RANGE(from, to) .least = from, .most = to
 #define POSITIVE        RANGE(0, INFINITY), .above_least = true
+#define PHYSICAL        RANGE(1e-100, 1e100) /* its squares in errors and energies neither overflow nor vanish */
 
 const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
     [GX_PROBLEM_NAME] = {.path = "problem.name",
@@ -41,14 +42,14 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
     [GX_PROBLEM_MODULUS] = {.path = "problem.modulus",
                             .type = GX_REAL,
                             .unit = "Pa",
-                            POSITIVE,
+                            PHYSICAL,
                             .standard = "1e4",
                             .help = "Young's modulus E",
                             .why = "with density 1 a wave crosses the domain in 0.01 s"},
     [GX_PROBLEM_DENSITY] = {.path = "problem.density",
                             .type = GX_REAL,
                             .unit = "kg/m^dim",
-                            POSITIVE,
+                            PHYSICAL,
                             .standard = "1",
                             .applies = gx_rules_is_continuum,
                             .help = "density of the undeformed body",

@@ -36,7 +36,7 @@ static void read_problem(struct gx_simulation *simulation, const struct gx_case 
   for (int d = 0; d < options->dim; d++) {
     options->active[d] = active->type != GX_TEXT || strchr(active->text, "xyz"[d]);
     char *rest;
-    options->phase[d] = M_PI * strtod(phase, &rest); /* 0 when the text has ended */
+    options->phase[d] = M_PI * fmod(strtod(phase, &rest), 2); /* 0 when the text has ended */
     phase = rest;
   }
 }
@@ -106,11 +106,11 @@ static enum gx_status settle_steps(struct gx_simulation *simulation, const struc
   double period = simulation->problem->cycles / (c * simulation->problem_options.mode);
   double dt = real(one, GX_TIME_DT, real(one, GX_TIME_CFL, 0) * h / c);
   double end = real(one, GX_TIME_END, real(one, GX_TIME_PERIODS, 0) * period);
-  if (!(dt > 0 && isfinite(dt) && isfinite(end)))
-    return gx_status_set(outcome, GX_REFUSED, -1, "time step %g s and end %g s are not both positive numbers", dt, end);
-  simulation->steps = fmax(0, ceil(end / dt - 1e-9));
+  if (!(dt > 0 && isfinite(dt) && end > 0 && isfinite(end)))
+    return gx_status_set(outcome, GX_REFUSED, -1, "time step %g s and end %g s are not both positive finite numbers", dt, end);
+  simulation->steps = fmax(1, ceil(end / dt - 1e-9)); /* however short, the time asked for is run */
   if (simulation->steps > 1e15) return gx_status_set(outcome, GX_REFUSED, -1, "%.3g steps would never end", simulation->steps);
-  bool exact = !is(one, GX_TIME_LANDING, "past") && simulation->steps > 0;
+  bool exact = !is(one, GX_TIME_LANDING, "past");
   simulation->dt = exact ? end / simulation->steps : dt;
   simulation->end = end;
   return GX_OK;

@@ -5,6 +5,7 @@ import io
 import json
 import os
 import pathlib
+import resource
 import signal
 import subprocess
 import sys
@@ -171,6 +172,15 @@ class Run(Case):
                 done = subprocess.run([PROGRAM, *args], cwd=self.dir, stdout=full, stderr=subprocess.PIPE, timeout=60)
                 self.assertEqual(done.returncode, 1, args)
                 self.assertIn(b"standard output", done.stderr)
+
+    def test_files_that_cannot_grow_leave_nothing(self):
+        def limit():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (8192, 8192))
+
+        err = self.call("run", "small.yaml", code=1, preexec_fn=limit).stderr
+        self.assertIn("study.h5.partial: cannot write: File too large", err)
+        self.assertEqual(list((self.dir / "small.study").iterdir()), [])
 
     def test_a_closed_pipe_ends_quietly(self):
         read, write = os.pipe()
