@@ -21,7 +21,7 @@ static double now(void)
 #define TIME(result, statement)                                                                                                  \
   do {                                                                                                                           \
     result = HUGE_VAL;                                                                                                           \
-    for (int time_i = 0; time_i < 40; time_i++) {                                                                                 \
+    for (int time_i = 0; time_i < 40; time_i++) {                                                                                \
       double time_start = now();                                                                                                 \
       for (size_t time_r = 0; time_r < repeats; time_r++) statement;                                                             \
       result = fmin(result, (now() - time_start) / (double)(repeats * n));                                                       \
