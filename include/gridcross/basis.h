@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Bases: weights and gradients of one direction at many points. Directions combine by products (steffen2010 S 28-34). */
+/* Bases: weights and gradients of one direction at many points. Directions combine by products (steffen2010 eq. 29). */
 #ifndef GRIDCROSS_BASIS_H
 #define GRIDCROSS_BASIS_H
 

@@ -38,7 +38,7 @@ struct gx_clock {
   int stages; /* acceleration evaluations per step */
   bool symplectic;
   bool staggered;          /* velocity lives at half steps, starting at -dt/2 */
-  bool first_order_defect; /* per-step energy defect by berzins2022 E(94), else E(88) */
+  bool first_order_defect; /* per-step energy defect by berzins2022 eq. 94, else eq. 88 */
   double stability;        /* largest omega dt on the oscillator */
   /* exactly one of rows, splitting, tableau: */
   const struct gx_row *rows;       /* ended by GX_END */

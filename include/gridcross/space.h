@@ -21,6 +21,10 @@ struct gx_space_options {
   bool particle_motion; /* method.position: particle */
   bool each_step;       /* method.projection: nodal velocity re-projected from particles */
   bool stress_rate;     /* stress integrated by rate, else P(F) */
+  /* collocation */
+  bool reference;         /* method.frame: sites at X, else at x */
+  bool symmetric;         /* method.closure: mirrored at fixed ends, else the papers' */
+  bool papers_divergence; /* method.divergence: the factor F left out, as in the papers */
 };
 
 /* What clocks are made of. */
@@ -42,7 +46,7 @@ enum gx_primitive {
   GX_CLOSE           /* x <- y + span S v */
 };
 
-enum { GX_MAX_STATE = 32 };
+enum { GX_MAX_STATE = 48 }; /* in 3-D u, v, F, P and nodal velocity are 27 */
 
 /* The arrays that a space advances in time; what a Runge–Kutta engine combines. */
 struct gx_state {
@@ -57,14 +61,15 @@ struct gx_space_kind {
   const char *name;
   const char *help;
   const char *source;
-  bool fixed_grid; /* particles move through the grid: projection each step by default, crossings counted */
-  bool of_problem; /* the equations of one problem, not a choice of method.space */
+  bool fixed_grid;  /* particles move through the grid: projection each step by default, crossings counted */
+  bool collocation; /* strong form on splines: method.degree, frame, closure, divergence; no basis, mass or transfer */
+  bool of_problem;  /* the equations of one problem, not a choice of method.space */
   /* Builds the space on particles and a posed problem (both borrowed, particles already in their initial state). */
   enum gx_status (*create)(struct gx_space **space, const struct gx_space_options *options, struct gx_particles *particles,
                            const struct gx_posed *posed, struct gx_outcome *outcome);
   void (*free)(struct gx_space *space);
-  /* Primitives of NUMERICS: W, P, A at time t, then K (kick), G (strain), X (drift) in that order, each by its own time span;
-   * a span of 0 skips it. */
+  /* The primitives above: weights, projection, acceleration at time t; then kick, strain and drift in that order, each by its own
+   * time span in s, where 0 skips it. */
   enum gx_status (*weights)(struct gx_space *space);
   enum gx_status (*project)(struct gx_space *space);
   enum gx_status (*accelerate)(struct gx_space *space, double t);
@@ -90,6 +95,7 @@ struct gx_space {
   struct gx_particles *particles; /* borrowed */
   const struct gx_posed *posed;   /* borrowed */
   struct gx_outcome *outcome;     /* borrowed: filled when a primitive fails */
+  bool through_cells;             /* particles move through the cells of mesh.cells: crossings are counted */
 };
 
 extern const struct gx_space_kind *const gx_space_family[];

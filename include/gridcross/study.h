@@ -59,10 +59,11 @@ struct gx_plan {
   double steps;
   double particles;
   double stable_dt; /* s; NaN: unknown */
+  double growth;    /* largest real part of the eigenvalues at the start, 1/s; NaN: unknown */
 };
 
 struct gx_plan gx_case_plan(const struct gx_case *one);
-/* Runs one case; never aborts. */
+/* Runs one case; never aborts, once gsl_set_error_handler_off was called (gx_study_run does). */
 struct gx_result gx_case_run(const struct gx_case *one);
 void gx_case_free(struct gx_result *result);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* B-splines of degree 1 to 9: uniform knots when periodic, open (clamped) knots between fixed ends (steffen2010 S(30)-S(34)).
+/* B-splines of degree 1 to 9: uniform knots when periodic, open (clamped) knots between fixed ends (steffen2010 eqs 30-34).
  * In cell c the functions c ... c + degree are non-zero. */
 #include <gridcross/basis.h>
 
@@ -134,7 +134,7 @@ GX_CLONES static long evaluate(const struct gx_axis *axis, size_t n, const doubl
 const struct gx_basis gx_bspline = {
     .name = "bspline",
     .help = "B-splines of method.degree; open knots between fixed ends",
-    .source = "steffen2010 S(30)-S(34); de Boor 1978",
+    .source = "steffen2010 eqs 30-34; de Boor 1978",
     .has_degree = true,
     .layout = layout,
     .evaluate = evaluate,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Piecewise linear (hat) functions: steffen2010 S(28), S(29). Function i is the hat at node i. */
+/* Piecewise linear (hat) functions: steffen2010 eqs 28, 29. Function i is the hat at node i. */
 #include <gridcross/basis.h>
 
 #include "../core/kernel.h"
@@ -35,7 +35,7 @@ GX_CLONES static long evaluate(const struct gx_axis *axis, size_t n, const doubl
 const struct gx_basis gx_linear = {
     .name = "linear",
     .help = "piecewise linear hat functions; the gradient jumps at cell edges",
-    .source = "steffen2010 S(28), S(29)",
+    .source = "steffen2010 eqs 28, 29",
     .layout = layout,
     .evaluate = evaluate,
 };

@@ -82,16 +82,33 @@ static void show_progress(void *context, size_t done, size_t total)
   fflush(stderr);
 }
 
+/* Time and particle matter where a case did not end well, timing where it was asked for. */
+static bool is_shown(const struct gx_table *table, const char *name, bool timing)
+{
+  if (!strcmp(name, "result.ns_per_particle_step")) return timing;
+  if (strcmp(name, "result.time") != 0) return true;
+  long reason = gx_table_find(table, "result.reason");
+  for (size_t row = 0; row < table->rows; row++)
+    if (gx_table_get(table, row, (size_t)reason).type != GX_NULL) return true;
+  return false;
+}
+
 /* What varies and what matters most. */
 static struct gx_table *summary(const struct gx_table *table, bool timing)
 {
-  static const char *const shown[] = {"result.status",       "result.displacement.max.rms", "result.crossings",
-                                      "result.energy.drift", "result.ns_per_particle_step", "result.reason"};
-  size_t *column = calloc(table->columns + 8, sizeof *column);
+  static const char *const shown[] = {"result.status",
+                                      "result.displacement.max.rms",
+                                      "result.crossings",
+                                      "result.energy.drift",
+                                      "result.ns_per_particle_step",
+                                      "result.time",
+                                      "result.particle",
+                                      "result.reason"};
+  size_t *column = calloc(table->columns + sizeof shown / sizeof *shown, sizeof *column);
   long count = column ? gx_axes_find(table, 0, column) : -1;
   for (size_t i = 0; i < sizeof shown / sizeof *shown && count >= 0; i++) {
     long c = gx_table_find(table, shown[i]);
-    if (c >= 0 && (timing || strcmp(shown[i], "result.ns_per_particle_step") != 0)) column[count++] = (size_t)c;
+    if (c >= 0 && is_shown(table, shown[i], timing)) column[count++] = (size_t)c;
   }
   struct gx_table *short_table = count < 0 ? NULL : gx_table_create((size_t)count, table->rows);
   int failed = !short_table;

@@ -3,13 +3,15 @@
 #include <errno.h>
 #include <string.h>
 
+#include <gsl/gsl_errno.h>
+
 #include <gridcross/build.h>
 
 #include "../core/nearest.h"
 #include "command.h"
 
-static const struct gx_command *const commands[] = {&gx_command_run,  &gx_command_check,   &gx_command_init,
-                                                    &gx_command_list, &gx_command_compare, NULL};
+static const struct gx_command *const commands[] = {
+    &gx_command_run, &gx_command_check, &gx_command_init, &gx_command_list, &gx_command_compare, &gx_command_plot, NULL};
 
 static void print_help(FILE *out)
 {
@@ -75,6 +77,7 @@ static int run_command(int argc, char **argv)
 
 int main(int argc, char **argv)
 {
+  gsl_set_error_handler_off();
   int code = run_command(argc, argv);
   /* A full disk or a closed pipe shows only when the last bytes leave. */
   if (fflush(stdout) || ferror(stdout)) {

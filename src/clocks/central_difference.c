@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Central differences (leapfrog): the rows of euler-stress-last with velocity at half steps, steffen2010 §3.2. */
+/* Central differences (leapfrog): the rows of euler-stress-last with velocity at half steps, steffen2010 eqs 23-27. */
 #include <gridcross/clock.h>
 
 static const struct gx_row rows[] = {
@@ -9,7 +9,7 @@ static const struct gx_row rows[] = {
 const struct gx_clock gx_central_difference = {
     .name = "central-difference",
     .help = "leapfrog: velocity at half steps, started at -dt/2",
-    .source = "steffen2010 §3.2",
+    .source = "steffen2010 eqs 23-27",
     .order = 2,
     .stages = 1,
     .symplectic = true,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Symplectic Euler, stress updated last (USL): berzins2021 §3, berzins2022 §3. */
+/* Symplectic Euler, stress updated last (USL): berzins2022 §3. */
 #include <gridcross/clock.h>
 
 static const struct gx_row rows[] = {
@@ -9,7 +9,7 @@ static const struct gx_row rows[] = {
 const struct gx_clock gx_euler_stress_last = {
     .name = "euler-stress-last",
     .help = "symplectic Euler, stress updated after the velocity",
-    .source = "berzins2021 §3, berzins2022 §3",
+    .source = "berzins2022 §3, eqs 17-29",
     .order = 1,
     .stages = 1,
     .symplectic = true,

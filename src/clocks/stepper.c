@@ -7,14 +7,16 @@
 
 #include "../core/vector.h"
 
-enum { MOST_ROWS = 6 * GX_MAX_STAGES + 8 };
+/* First weights, projection and drift; six rows a stage; the end. */
+enum { MOST_ROWS = 4 + 6 * GX_MAX_STAGES + 1 };
 
 struct gx_stepper {
   const struct gx_clock *clock;
   struct gx_space *space;
   struct gx_work_observer observer;
   bool fresh[GX_ACCELERATE + 1];             /* W, P, A hold for the current state and need not be repeated */
-  struct gx_row rows[MOST_ROWS];             /* rows of the clock, or what its splitting means */
+  const struct gx_row *rows;                 /* NULL: a tableau */
+  struct gx_row expanded[MOST_ROWS];         /* what a splitting means */
   struct gx_state state;                     /* tableau: what is combined */
   double *start[GX_MAX_STATE];               /* state at the start of the step */
   double *rate[GX_MAX_STAGES][GX_MAX_STATE]; /* rates of each stage */
@@ -76,9 +78,11 @@ struct gx_stepper *gx_stepper_create(const struct gx_clock *clock, struct gx_spa
   if (!stepper) return NULL;
   *stepper = (struct gx_stepper){.clock = clock, .space = space};
   if (observer) stepper->observer = *observer;
-  const struct gx_row *rows = clock->plain_rows && !space->kind->fixed_grid ? clock->plain_rows : clock->rows;
-  for (int i = 0; rows && (i == 0 || rows[i - 1].primitive != GX_END); i++) stepper->rows[i] = rows[i];
-  if (clock->splitting) expand(clock->splitting, stepper->rows);
+  stepper->rows = clock->plain_rows && !space->kind->fixed_grid ? clock->plain_rows : clock->rows;
+  if (clock->splitting) {
+    expand(clock->splitting, stepper->expanded);
+    stepper->rows = stepper->expanded;
+  }
   if (clock->tableau && allocate_stages(stepper)) {
     free(stepper);
     return NULL;

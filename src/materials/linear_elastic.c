@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Linear bar: P = sigma = E (F - 1) in 1-D (berzins2021, berzins2022). */
+/* Linear bar: P = sigma = E (F - 1) in 1-D (berzins2021 eq. 32). */
 #include <gridcross/material.h>
 
 #include <math.h>
@@ -47,7 +47,7 @@ static double wave_speed(const struct gx_moduli *moduli)
 const struct gx_material gx_linear_elastic = {
     .name = "linear-elastic",
     .help = "sigma = E (F - 1), 1-D",
-    .source = "berzins2021 R(4), berzins2022",
+    .source = "berzins2021 eq. 32",
     .piola = piola,
     .piola_rate = piola_rate,
     .energy = energy,

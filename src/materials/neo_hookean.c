@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Compressible neo-Hookean solid: W = mu/2 (F:F - dim) - mu ln J + lambda/2 (ln J)^2, P = mu (F - F^-T) + lambda ln J F^-T.
- * In 1-D with nu = 0: P = sigma = (E/2)(F - 1/F), steffen2010 S(126). In 2-D: plane strain. */
+ * In 1-D with nu = 0: P = sigma = (E/2)(F - 1/F), steffen2010 eq. 132. In 2-D: plane strain. */
 #include <gridcross/material.h>
 
 #include <math.h>
@@ -82,7 +82,10 @@ GX_CORE void piola_rate_points(const int dim, const struct gx_moduli *moduli, si
 }
 
 static void piola_rate(const struct gx_moduli *moduli, int dimension, size_t n, double *const *F, double *const *rate_F,
-                       double *const *rate_P){GX_FOR_DIM(dimension, piola_rate_points(dim, moduli, n, F, rate_F, rate_P))}
+                       double *const *rate_P)
+{
+  GX_FOR_DIM(dimension, piola_rate_points(dim, moduli, n, F, rate_F, rate_P))
+}
 
 GX_CORE void energy_points(const int dim, const struct gx_moduli *moduli, size_t n, double *const *F, double *W)
 {
@@ -108,7 +111,7 @@ static double wave_speed(const struct gx_moduli *moduli)
 const struct gx_material gx_neo_hookean = {
     .name = "neo-hookean",
     .help = "compressible neo-Hookean solid; 1-D: sigma = (E/2)(F - 1/F)",
-    .source = "steffen2010 S(126)",
+    .source = "steffen2010 eq. 132",
     .piola = piola,
     .piola_rate = piola_rate,
     .energy = energy,

@@ -43,8 +43,7 @@ static void body_with_bulk(const struct gx_posed *posed, const double *A, double
     double F[GX_MAX_DIM], J = 1;
     for (int d = 0; d < dim; d++) J *= F[d] = 1 + 2 * M_PI * A[d] * posed->cosine[d][p];
     const double bulk = lambda * (1 - log(J));
-    for (int d = 0; d < dim; d++)
-      b[d][p] = A[d] * posed->sine[d][p] * (stiff * (mu + (mu + bulk) / (F[d] * F[d])) - inertia);
+    for (int d = 0; d < dim; d++) b[d][p] = A[d] * posed->sine[d][p] * (stiff * (mu + (mu + bulk) / (F[d] * F[d])) - inertia);
   }
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Linear bar: u = A sin(2 pi m X) sin(2 pi m c t), c = sqrt(E/rho0), no body force (berzins2021 §4, berzins2022 §7).
+/* Linear bar: u = A sin(2 pi m X) sin(2 pi m c t), c = sqrt(E/rho0), no body force (berzins2021 §6, berzins2022 §12.1).
  * The papers' E is 4 times the modulus here. */
 #include "standing_wave.h"
 
@@ -14,7 +14,7 @@ static void exact(const struct gx_posed *posed, double t, double *const *u, doub
 const struct gx_problem gx_bar_linear = {
     .name = "bar-linear",
     .help = "free vibration of a linear bar from its straight state",
-    .source = "berzins2021 §4, berzins2022 §7",
+    .source = "berzins2021 §6, eqs 32, 33; berzins2022 §12.1",
     .material = &gx_linear_elastic,
     .max_dim = 1,
     .has_mode = true,

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Neo-Hookean bar, steffen2010 §6.1: u = A sin(2 pi X) cos(C pi t), C = sqrt(E/rho0), kept exact by the body force S(131),
+/* Neo-Hookean bar, steffen2010 §6.1: u = A sin(2 pi X) cos(C pi t), C = sqrt(E/rho0), kept exact by the body force of eq. 131,
  * b = C^2 pi^2 u (2 F^-2 + 1). At t = 0 the bar is already deformed. The 1-D case of axis-aligned. */
 #include "axis_aligned.h"
 
 const struct gx_problem gx_bar_neo_hookean = {
     .name = "bar-neo-hookean",
     .help = "manufactured standing wave in a neo-Hookean bar with body force",
-    .source = "steffen2010 S(126)-S(131)",
+    .source = "steffen2010 §6.1, eqs 129-132",
     .material = &gx_neo_hookean,
     .max_dim = 1,
     .periodic = true,

@@ -3,6 +3,9 @@
  * width w into a plain one of half width 2w, so that one band solver serves every grid. */
 #include "mass.h"
 
+#include <float.h>
+#include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 
 #include <gsl/gsl_errno.h>
@@ -140,6 +143,18 @@ static void hold(gsl_matrix *band, size_t i)
   gsl_matrix_set(band, i, 0, 1);
 }
 
+/* Whether a pivot is no more than round-off of the assembled diagonal: a singular matrix leaves noise of either sign, which
+ * grows with the number of unknowns, since every row of a regular grid errs alike. */
+static bool has_noise(const struct gx_mass *mass, const gsl_matrix *factor, int v)
+{
+  double noise = 4 * (double)mass->unknowns * DBL_EPSILON;
+  for (size_t i = 0; i < mass->unknowns; i++) {
+    double root = gsl_matrix_get(factor, i, 0);
+    if (!(mass->held[i] >> v & 1) && !(root * root > noise * gsl_matrix_get(mass->assembled, i, 0))) return true;
+  }
+  return false;
+}
+
 int gx_mass_factor(struct gx_mass *mass, const struct gx_weights *weights, const double *m)
 {
   assemble(mass, weights, m);
@@ -148,7 +163,7 @@ int gx_mass_factor(struct gx_mass *mass, const struct gx_weights *weights, const
     gsl_matrix_memcpy(factor, mass->assembled);
     for (size_t i = 0; i < mass->unknowns; i++)
       if (mass->held[i] >> v & 1 || gsl_matrix_get(factor, i, 0) == 0) hold(factor, i);
-    if (gsl_linalg_cholesky_band_decomp(factor) != GSL_SUCCESS) return -1;
+    if (gsl_linalg_cholesky_band_decomp(factor) != GSL_SUCCESS || has_noise(mass, factor, v)) return -1;
   }
   return 0;
 }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "../core/kernel.h"
+#include "../core/vector.h"
 
 static void lay_out_grid(struct gx_mesh *mesh)
 {
@@ -49,6 +50,7 @@ static size_t place_arrays(struct gx_mesh *mesh, double *block)
   PLACE(mesh->x, dim, n);
   PLACE(mesh->half, dim, n);
   PLACE(mesh->T, dim * dim, n);
+  PLACE(mesh->body, dim, n);
   PLACE(mesh->opened, dim, n);
   PLACE(mesh->opened_nodes, dim, nodes);
   PLACE(mesh->gathered_a, dim, n);
@@ -115,11 +117,14 @@ GX_CLONES static bool move(size_t n, const double *restrict X, const double *res
   return !outside;
 }
 
-static enum gx_status report_outside(struct gx_mesh *mesh, int d, double limit)
+/* Farther than this, positions on a periodic grid mean nothing; past a fixed end, more than this is not round-off. */
+static const double far = 1e6, edge = 1e-12;
+
+static enum gx_status report_outside(struct gx_mesh *mesh, int d)
 {
   const double *x = mesh->x[d];
   size_t p = 0;
-  while (mesh->grid.axis[d].periodic ? fabs(x[p]) <= limit : x[p] >= 0 && x[p] <= 1) p++;
+  while (mesh->grid.axis[d].periodic ? fabs(x[p]) <= far : x[p] >= -edge && x[p] <= 1 + edge) p++;
   if (mesh->grid.axis[d].periodic || !isfinite(x[p]))
     return gx_status_set(mesh->space.outcome, GX_UNSTABLE, (long)p, "the position of a particle is %g", x[p]);
   return gx_status_set(mesh->space.outcome, GX_LEFT_DOMAIN, (long)p, "a particle is at %.6g, outside the domain [0, 1]", x[p]);
@@ -139,13 +144,13 @@ static enum gx_status weigh(struct gx_mesh *mesh, double *const *u, double *cons
 {
   const struct gx_particles *particles = mesh->space.particles;
   const struct gx_basis *basis = mesh->options.basis;
-  const double far = 1e6;
   size_t n = particles->n;
   for (int d = 0; d < mesh->grid.dim; d++) {
     const struct gx_axis *axis = &mesh->grid.axis[d];
     const double *x = particles->X[d], *half = domains(mesh, d, F, frozen);
     if (u) {
-      if (!move(n, x, u[d], axis->periodic ? -far : 0, axis->periodic ? far : 1, mesh->x[d])) return report_outside(mesh, d, far);
+      if (!move(n, x, u[d], axis->periodic ? -far : -edge, axis->periodic ? far : 1 + edge, mesh->x[d]))
+        return report_outside(mesh, d);
       x = mesh->x[d];
     }
     long wide = basis->evaluate(axis, n, x, half, mesh->weights.first[d], mesh->weights.S[d], mesh->weights.D[d]);
@@ -212,14 +217,45 @@ void gx_mesh_project(struct gx_mesh *mesh, double *const *value, double *const *
   solve_mass(mesh, field);
 }
 
+enum gx_status gx_mesh_stress(struct gx_mesh *mesh)
+{
+  struct gx_particles *particles = mesh->space.particles;
+  const struct gx_posed *posed = mesh->space.posed;
+  long tangled =
+      posed->problem->material->piola(&posed->options.moduli, particles->dim, particles->n, particles->F, particles->P);
+  if (tangled < 0) return GX_OK;
+  return gx_status_set(mesh->space.outcome, GX_TANGLED, tangled, "det F of a particle is %g",
+                       gx_particles_jacobian(particles, (size_t)tangled));
+}
+
+void gx_mesh_kick_particles(struct gx_mesh *mesh, double kick)
+{
+  struct gx_particles *particles = mesh->space.particles;
+  double flip = mesh->options.pic ? 0 : mesh->options.flip;
+  for (int d = 0; d < particles->dim; d++) {
+    double *v = particles->v[d];
+    gx_vector_add(particles->n, kick, mesh->gathered_a[d], v);
+    if (flip < 1)
+      for (size_t p = 0; p < particles->n; p++) v[p] = flip * v[p] + (1 - flip) * mesh->gathered_v[d][p];
+  }
+}
+
+GX_CLONES static void multiply(size_t n, const double *restrict a, const double *restrict b, double *restrict product)
+{
+  for (size_t p = 0; p < n; p++) product[p] = a[p] * b[p];
+}
+
 void gx_mesh_accelerate(struct gx_mesh *mesh, double t)
 {
   struct gx_particles *particles = mesh->space.particles;
   const struct gx_posed *posed = mesh->space.posed;
   bool loaded = posed->problem->body;
   if (loaded) posed->problem->body(posed, t, particles->b);
-  for (int d = 0; d < mesh->grid.dim; d++) zero(mesh, mesh->a[d]);
-  gx_transfer_scatter_force(&mesh->weights, mesh->T, particles->m, loaded ? particles->b : NULL, mesh->a);
+  for (int d = 0; d < mesh->grid.dim; d++) {
+    zero(mesh, mesh->a[d]);
+    if (loaded) multiply(particles->n, particles->m, particles->b[d], mesh->body[d]);
+  }
+  gx_transfer_scatter_force(&mesh->weights, mesh->T, loaded ? mesh->body : NULL, mesh->a);
   solve_mass(mesh, mesh->a);
 }
 

@@ -21,7 +21,8 @@ struct gx_mesh {
   double *u[GX_MAX_DIM]; /* m; moving mesh only */
   /* scratch, [n] */
   double *x[GX_MAX_DIM], *half[GX_MAX_DIM];
-  double *T[GX_MAX_TENSOR];         /* what the force scatters */
+  double *T[GX_MAX_TENSOR];         /* what the force scatters by gradients */
+  double *body[GX_MAX_DIM];         /* what it scatters by weights: body force on a particle, N */
   double *opened[GX_MAX_DIM];       /* y of GX_OPEN, at particles */
   double *opened_nodes[GX_MAX_DIM]; /* the same at nodes, [grid.stored] */
   double *gathered_a[GX_MAX_DIM], *gathered_v[GX_MAX_DIM];
@@ -44,6 +45,10 @@ enum gx_status gx_mesh_weigh_frozen(struct gx_mesh *mesh, double *const *u);
 enum gx_status gx_mesh_assemble(struct gx_mesh *mesh, double *const *value, double *const *field);
 /* field = M^-1 sum_p m_p value_p S_ip with the mass assembled last. */
 void gx_mesh_project(struct gx_mesh *mesh, double *const *value, double *const *field);
+/* P(F) of every particle. */
+enum gx_status gx_mesh_stress(struct gx_mesh *mesh);
+/* v_p <- flip (v_p + kick S a) + (1 - flip) S v, from gathered_a and gathered_v; the latter is not looked at where flip is 1. */
+void gx_mesh_kick_particles(struct gx_mesh *mesh, double kick);
 /* Nodal acceleration from the forces of T and of the problem's body force at time t. */
 void gx_mesh_accelerate(struct gx_mesh *mesh, double t);
 double gx_mesh_kinetic(const struct gx_space *space);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Moving-mesh (total Lagrangian) MPM, steffen2010 S(50)-S(61): weights at the reference positions X, computed once,
+/* Moving-mesh (total Lagrangian) MPM, steffen2010 eqs 50-61: weights at the reference positions X, computed once,
  *   F_p = I + sum u_i D_ip,  a_i = M^-1 sum (-V0 P_p D_ip + m_p b_p S_ip),  v_i += dt a_i,  u_i += dt v_i.
  * projection once: the state is (u_i, v_i) and particles sample it, x_p = X_p + sum S_ip u_i, v_p = sum S_ip v_i.
  * projection each-step: the paper to the letter, v_i = M^-1 sum m_p v_p S_ip each step, u_p and v_p incremented. */
@@ -59,14 +59,10 @@ static enum gx_status accelerate(struct gx_space *space, double t)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
   struct gx_particles *particles = space->particles;
-  const struct gx_posed *posed = space->posed;
   int dim = particles->dim;
   if (!mesh->options.stress_rate) {
     deformation_gradient(mesh);
-    long tangled = posed->problem->material->piola(&posed->options.moduli, dim, particles->n, particles->F, particles->P);
-    if (tangled >= 0)
-      return gx_status_set(space->outcome, GX_TANGLED, tangled, "det F of a particle is %g",
-                           gx_particles_jacobian(particles, (size_t)tangled));
+    GX_TRY(gx_mesh_stress(mesh));
   }
   for (int k = 0; k < dim * dim; k++) nominal(particles->n, particles->V0, particles->P[k], mesh->T[k]);
   gx_mesh_accelerate(mesh, t);
@@ -86,35 +82,32 @@ static void rate_of_stress(struct gx_mesh *mesh, double *const *rate_P)
 
 static void strain(struct gx_mesh *mesh, double span)
 {
-  struct gx_particles *particles = mesh->space.particles;
+  const struct gx_particles *particles = mesh->space.particles;
   if (!mesh->options.stress_rate) return; /* F comes from u_i */
   rate_of_stress(mesh, mesh->rate_P);
   for (int k = 0; k < particles->dim * particles->dim; k++) gx_vector_add(particles->n, span, mesh->rate_P[k], particles->P[k]);
 }
 
-static void advance(struct gx_space *space, double kick, double strained, double drift)
+static void advance(struct gx_space *space, double kick, double span, double drift)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
   struct gx_particles *particles = space->particles;
   int dim = particles->dim;
-  size_t n = particles->n, nodes = mesh->grid.stored;
-  bool carry = mesh->options.each_step;
-  double flip = mesh->options.pic ? 0 : mesh->options.flip;
-  for (int d = 0; d < dim && kick != 0; d++) gx_vector_add(nodes, kick, mesh->a[d], mesh->v[d]);
-  if (strained != 0) strain(mesh, strained);
-  if (carry) {
+  bool carried = mesh->options.each_step; /* particles carry the state of velocity and position */
+  if (kick != 0)
+    for (int d = 0; d < dim; d++) gx_vector_add(mesh->grid.stored, kick, mesh->a[d], mesh->v[d]);
+  if (span != 0) strain(mesh, span);
+  if (drift != 0)
+    for (int d = 0; d < dim; d++) gx_vector_add(mesh->grid.stored, drift, mesh->v[d], mesh->u[d]);
+  if (!carried) return;
+  gx_transfer_gather(&mesh->weights, mesh->v, mesh->gathered_v);
+  if (kick != 0) {
     gx_transfer_gather(&mesh->weights, mesh->a, mesh->gathered_a);
-    gx_transfer_gather(&mesh->weights, mesh->v, mesh->gathered_v);
+    gx_mesh_kick_particles(mesh, kick);
   }
-  for (int d = 0; d < dim && carry && kick != 0; d++) {
-    gx_vector_add(n, kick, mesh->gathered_a[d], particles->v[d]);
-    for (size_t p = 0; p < n && flip < 1; p++)
-      particles->v[d][p] = flip * particles->v[d][p] + (1 - flip) * mesh->gathered_v[d][p];
-  }
-  for (int d = 0; d < dim && drift != 0; d++) {
-    gx_vector_add(nodes, drift, mesh->v[d], mesh->u[d]);
-    if (carry) gx_vector_add(n, drift, mesh->options.particle_motion ? particles->v[d] : mesh->gathered_v[d], particles->u[d]);
-  }
+  if (drift != 0)
+    for (int d = 0; d < dim; d++)
+      gx_vector_add(particles->n, drift, mesh->options.particle_motion ? particles->v[d] : mesh->gathered_v[d], particles->u[d]);
 }
 
 /* Weights and mass never change, so that most of these have nothing to do. */
@@ -188,7 +181,7 @@ static void rates(struct gx_space *space, double *const *rate)
 const struct gx_space_kind gx_moving_mesh = {
     .name = "moving-mesh",
     .help = "total Lagrangian MPM: gradients in the reference configuration, first Piola-Kirchhoff stress",
-    .source = "steffen2010 S(50)-S(61)",
+    .source = "steffen2010 eqs 50-61",
     .create = create,
     .free = gx_mesh_free,
     .weights = weights,

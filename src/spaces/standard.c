@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Standard MPM on a fixed grid, steffen2010 S(15)-S(22): weights at the current positions x = X + u,
+/* Standard MPM on a fixed grid, steffen2010 eqs 15-22: weights at the current positions x = X + u,
  *   m_i = sum m_p S_ip,  v_i = M^-1 sum m_p v_p S_ip,  a_i = M^-1 sum (-V_p sigma_p D_ip + m_p b_p S_ip),
  *   v_p += dt sum S_ip a_i,  F_p <- (I + dt sum v_i D_ip) F_p,  x_p += dt sum S_ip v_i.
  * V sigma = V0 P F^T, so P is the only stress that is kept. */
@@ -26,6 +26,7 @@ static enum gx_status create(struct gx_space **space, const struct gx_space_opti
   struct gx_mesh *mesh = NULL;
   GX_TRY(gx_mesh_create(&mesh, sizeof *mesh, &gx_standard, options, particles, posed, outcome));
   *space = &mesh->space;
+  (*space)->through_cells = true;
   posed->problem->material->piola(&posed->options.moduli, particles->dim, particles->n, particles->F, particles->P);
   GX_TRY(weights(*space));
   return gx_mesh_assemble(mesh, particles->v, mesh->v);
@@ -58,15 +59,8 @@ GX_CLONES static void kirchhoff(const struct gx_particles *particles, double *co
 static enum gx_status accelerate(struct gx_space *space, double t)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
-  struct gx_particles *particles = space->particles;
-  if (!mesh->options.stress_rate) {
-    long tangled = space->posed->problem->material->piola(&space->posed->options.moduli, particles->dim, particles->n,
-                                                          particles->F, particles->P);
-    if (tangled >= 0)
-      return gx_status_set(space->outcome, GX_TANGLED, tangled, "det F of a particle is %g",
-                           gx_particles_jacobian(particles, (size_t)tangled));
-  }
-  kirchhoff(particles, mesh->T);
+  if (!mesh->options.stress_rate) GX_TRY(gx_mesh_stress(mesh));
+  kirchhoff(space->particles, mesh->T);
   gx_mesh_accelerate(mesh, t);
   return GX_OK;
 }
@@ -104,19 +98,6 @@ static void rate_of_stress(struct gx_space *space, double *const *rate_F, double
                                               rate_P);
 }
 
-/* v_p <- flip (v_p + dt S a) + (1 - flip) S v */
-static void kick_particles(struct gx_mesh *mesh, double kick)
-{
-  struct gx_particles *particles = mesh->space.particles;
-  double flip = mesh->options.pic ? 0 : mesh->options.flip;
-  for (int d = 0; d < particles->dim; d++) {
-    double *v = particles->v[d];
-    gx_vector_add(particles->n, kick, mesh->gathered_a[d], v);
-    if (flip < 1)
-      for (size_t p = 0; p < particles->n; p++) v[p] = flip * v[p] + (1 - flip) * mesh->gathered_v[d][p];
-  }
-}
-
 /* What an advance needs of the nodes, in one pass when it is all. */
 static void gather(struct gx_mesh *mesh, bool acceleration, bool velocity, bool gradient)
 {
@@ -139,7 +120,7 @@ static void advance(struct gx_space *space, double kick, double strain, double d
     for (int d = 0; d < dim; d++) gx_vector_add(mesh->grid.stored, kick, mesh->a[d], mesh->v[d]);
   bool blend = mesh->options.pic || mesh->options.flip < 1;
   gather(mesh, kick != 0, drift != 0 || (kick != 0 && blend), strain != 0);
-  if (kick != 0) kick_particles(mesh, kick);
+  if (kick != 0) gx_mesh_kick_particles(mesh, kick);
   if (strain != 0) {
     stretch(dim, n, particles->F, mesh->gradient);
     if (mesh->options.stress_rate) {
@@ -252,7 +233,7 @@ static void rates(struct gx_space *space, double *const *rate)
 const struct gx_space_kind gx_standard = {
     .name = "standard",
     .help = "MPM on a fixed grid: particles move through the cells, Cauchy stress, gradients at current positions",
-    .source = "steffen2010 S(15)-S(22)",
+    .source = "steffen2010 eqs 15-22",
     .fixed_grid = true,
     .create = create,
     .free = gx_mesh_free,

@@ -32,13 +32,14 @@ GX_CORE void load_stencil(const int dim, const int s, const struct gx_weights *w
   }
 }
 
-GX_CORE struct row row_of(const int dim, const struct gx_weights *w, const struct stencil *stencil, int k1, int k2)
+GX_CORE struct row row_of(const int dim, const struct gx_weights *w, const struct stencil *stencil, int k1, int k2,
+                          const bool slopes)
 {
   const int k[GX_MAX_DIM] = {0, k1, k2};
   struct row row = {.node = stencil->first, .W = 1, .slope = {1, 1, 1}};
   for (int d = 1; d < dim; d++) {
     row.node += (size_t)k[d] * w->stride[d];
-    for (int e = 1; e < dim; e++) row.slope[e] *= (e == d ? stencil->D : stencil->S)[d][k[d]];
+    for (int e = 1; slopes && e < dim; e++) row.slope[e] *= (e == d ? stencil->D : stencil->S)[d][k[d]];
     row.W *= stencil->S[d][k[d]];
   }
   return row;
@@ -94,7 +95,7 @@ GX_CORE void scatter(const int dim, const int s, const struct gx_weights *w, con
     for (int d = 0; d < dim; d++) momentum[d] = mass * in[d][p];
     FOR_ROWS(dim, s)
     {
-      const struct row row = row_of(dim, w, &stencil, k1, k2);
+      const struct row row = row_of(dim, w, &stencil, k1, k2, false);
       for (int k = 0; total && k < s; k++) total[row.node + (size_t)k] += mass * row.W * stencil.S[0][k];
       for (int d = 0; value && d < dim; d++)
         for (int k = 0; k < s; k++) out[d][row.node + (size_t)k] += momentum[d] * row.W * stencil.S[0][k];
@@ -113,14 +114,14 @@ GX_CLONES void gx_transfer_scatter(const struct gx_weights *weights, const doubl
     SPECIALISE(scatter, weights, m, value, NULL, moment);
 }
 
-GX_CORE void scatter_force(const int dim, const int s, const struct gx_weights *w, double *const *T, const double *m,
-                           double *const *b, double *const *force)
+GX_CORE void scatter_force(const int dim, const int s, const struct gx_weights *w, double *const *T, double *const *body,
+                           double *const *force)
 {
   double *out[GX_MAX_DIM];
-  const double *stress[GX_MAX_TENSOR], *body[GX_MAX_DIM];
+  const double *stress[GX_MAX_TENSOR], *in[GX_MAX_DIM];
   for (int d = 0; d < dim; d++) {
     out[d] = force[d];
-    body[d] = b ? b[d] : NULL;
+    in[d] = body ? body[d] : NULL;
   }
   for (int k = 0; k < dim * dim; k++) stress[k] = T[k];
   FOR_PARTICLES(dim, w->n, p)
@@ -128,30 +129,30 @@ GX_CORE void scatter_force(const int dim, const int s, const struct gx_weights *
     struct stencil stencil;
     load_stencil(dim, s, w, p, true, &stencil);
     double load[GX_MAX_DIM], t[GX_MAX_TENSOR];
-    for (int d = 0; d < dim; d++) load[d] = b ? m[p] * body[d][p] : 0;
+    for (int d = 0; d < dim; d++) load[d] = body ? in[d][p] : 0;
     for (int k = 0; k < dim * dim; k++) t[k] = stress[k][p];
     FOR_ROWS(dim, s)
     {
-      const struct row row = row_of(dim, w, &stencil, k1, k2);
+      const struct row row = row_of(dim, w, &stencil, k1, k2, true);
       for (int d = 0; d < dim; d++) {
         double along = t[d * dim] * row.W, across = load[d] * row.W;
         for (int e = 1; e < dim; e++) across += t[d * dim + e] * row.slope[e];
         for (int k = 0; k < s; k++) {
           double f = along * stencil.D[0][k];
-          out[d][row.node + (size_t)k] += b || dim > 1 ? f + across * stencil.S[0][k] : f;
+          out[d][row.node + (size_t)k] += body || dim > 1 ? f + across * stencil.S[0][k] : f;
         }
       }
     }
   }
 }
 
-GX_CLONES void gx_transfer_scatter_force(const struct gx_weights *weights, double *const *T, const double *m, double *const *b,
+GX_CLONES void gx_transfer_scatter_force(const struct gx_weights *weights, double *const *T, double *const *body,
                                          double *const *force)
 {
-  if (b)
-    SPECIALISE(scatter_force, weights, T, m, b, force);
+  if (body)
+    SPECIALISE(scatter_force, weights, T, body, force);
   else
-    SPECIALISE(scatter_force, weights, T, m, NULL, force);
+    SPECIALISE(scatter_force, weights, T, NULL, force);
 }
 
 /* take_a: acceleration: S-sums of a; take_v: velocity: S-sums of v; take_slopes: gradient: D-sums of v. */
@@ -174,7 +175,7 @@ GX_CORE void gather(const int dim, const int s, const struct gx_weights *w, cons
     double sum_a[GX_MAX_DIM] = {0}, sum_v[GX_MAX_DIM] = {0}, sum_g[GX_MAX_TENSOR] = {0};
     FOR_ROWS(dim, s)
     {
-      const struct row row = row_of(dim, w, &stencil, k1, k2);
+      const struct row row = row_of(dim, w, &stencil, k1, k2, take_slopes);
       for (int d = 0; d < dim; d++) {
         double row_a = 0, row_v = 0, row_g = 0;
         for (int k = 0; k < s; k++) {

@@ -18,9 +18,8 @@ struct gx_weights {
 /* total[i] += sum_p m_p S_ip, moment[d][i] += sum_p m_p value[d][p] S_ip; total, or value and moment, may be NULL. */
 void gx_transfer_scatter(const struct gx_weights *weights, const double *m, double *const *value, double *total,
                          double *const *moment);
-/* force[d][i] += sum_p (sum_e T[d*dim+e][p] D_ip,e + m_p b[d][p] S_ip); b may be NULL. */
-void gx_transfer_scatter_force(const struct gx_weights *weights, double *const *T, const double *m, double *const *b,
-                               double *const *force);
+/* force[d][i] += sum_p (sum_e T[d*dim+e][p] D_ip,e + body[d][p] S_ip); body may be NULL. */
+void gx_transfer_scatter_force(const struct gx_weights *weights, double *const *T, double *const *body, double *const *force);
 /* value[d][p] = sum_i field[d][i] S_ip */
 void gx_transfer_gather(const struct gx_weights *weights, double *const *field, double *const *value);
 /* gradient[d*dim+e][p] = sum_i field[d][i] D_ip,e */

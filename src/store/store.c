@@ -238,20 +238,23 @@ static struct gx_table *widen(struct gx_table *narrow)
   return NULL;
 }
 
-/* Timings are a comment on the table: a missing or foreign timing.csv leaves them null. */
+/* Timings are a comment on the table: a missing or foreign timing.csv leaves them null. Its rows stand in the order of the
+ * table, so that the search starts where the last one ended. */
 static void read_timing(const char *path, struct gx_table *table)
 {
   FILE *in = fopen(path, "rb");
   long id_column = gx_table_find(table, "case");
   char line[256], id[GX_ID_LENGTH];
+  size_t row = 0;
   struct gx_value seconds = {.type = GX_REAL}, cost = {.type = GX_REAL};
   while (in && id_column >= 0 && fgets(line, sizeof line, in)) {
     if (sscanf(line, "%16[^,],%lf,%lf", id, &seconds.real, &cost.real) != 3) continue;
-    for (size_t r = 0; r < table->rows; r++) {
-      struct gx_value value = gx_table_get(table, r, (size_t)id_column);
+    for (size_t tried = 0; tried < table->rows; tried++, row = (row + 1) % table->rows) {
+      struct gx_value value = gx_table_get(table, row, (size_t)id_column);
       if (value.type != GX_TEXT || strcmp(value.text, id)) continue;
-      gx_table_set(table, r, table->columns - 2, seconds);
-      gx_table_set(table, r, table->columns - 1, cost);
+      gx_table_set(table, row, table->columns - 2, seconds);
+      gx_table_set(table, row, table->columns - 1, cost);
+      break;
     }
   }
   if (in) fclose(in);
@@ -266,4 +269,21 @@ struct gx_table *gx_store_read(const char *directory, FILE *errors)
   free(study);
   free(timing);
   return table;
+}
+
+char *gx_store_read_title(const char *directory, FILE *errors)
+{
+  char *study = path_in(directory, "", names[STUDY], ""), *title = study ? gx_hdf5_read_title(study, errors) : NULL;
+  if (!study) say(errors, NULL);
+  free(study);
+  return title;
+}
+
+struct gx_table *gx_store_read_history(const char *directory, const char *id, const char *name, FILE *errors)
+{
+  char *study = path_in(directory, "", names[STUDY], "");
+  struct gx_table *history = study ? gx_hdf5_read_history(study, id, name, errors) : NULL;
+  if (!study) say(errors, NULL);
+  free(study);
+  return history;
 }

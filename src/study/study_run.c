@@ -6,6 +6,8 @@
 #include <pthread.h>
 #include <stdlib.h>
 
+#include <gsl/gsl_errno.h>
+
 struct pool {
   const struct gx_study *study;
   struct gx_result *results;
@@ -33,6 +35,7 @@ static void *work(void *argument)
 void gx_study_run(const struct gx_study *study, size_t threads, const struct gx_progress *progress, struct gx_result *results)
 {
   struct pool pool = {.study = study, .results = results, .progress = progress, .lock = PTHREAD_MUTEX_INITIALIZER};
+  gsl_set_error_handler_off(); /* a matrix that cannot be factored is a result */
   if (threads > study->count) threads = study->count;
   size_t helpers = threads > 1 ? threads - 1 : 0, started = 0;
   pthread_t *thread = calloc(helpers + 1, sizeof *thread);

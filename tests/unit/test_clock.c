@@ -1,17 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every clock against its own claims: order from the order conditions in long double, order and stability limit measured on the
  * oscillator, and the symplectic ones on the area of phase space. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
-
 #include <gridcross/clock.h>
+
+#include "check.h"
 
 /* A tree of the Nystrom series of x'' = f(x): the stage values it gives and its exact value kappa s^power, s = t/dt. */
 struct tree {

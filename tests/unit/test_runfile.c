@@ -80,7 +80,7 @@ static void defaults_and_id(void **state)
   assert_string_equal(study->title, "");
   assert_string_equal(study->source, "problem: {name: bar-linear}");
   /* FNV-1a 64 of the lines problem.name=bar-linear, problem.dimension=1, problem.amplitude=0.050000000000000003, ... with the
-   * defaults of DESIGN.md, by an independent program. It changes when a parameter or a default does, and then only. */
+   * defaults as published, by an independent program. It changes when a parameter or a default does, and then only. */
   assert_string_equal(study->cases[0].id, "752495be17fc8e9c");
   COLUMN(study, GX_PROBLEM_BOUNDARY, "fixed");
   COLUMN(study, GX_PROBLEM_MODE, "1");

@@ -1,17 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tables, values, and the columns of a study. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include <gridcross/study.h>
 
-#include "../near.h"
+#include "check.h"
 
 static struct gx_value integer(long i)
 {

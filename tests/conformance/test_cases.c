@@ -1,0 +1,265 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Whole cases: every space and the equations of every problem with every clock end well, measures do not change what they measure, a wave along one axis of 2-D
+ * and 3-D is the 1-D wave, and a repeated run gives the same bits. */
+#include <gsl/gsl_errno.h>
+
+#include "case_of.h"
+#include "rig.h"
+
+static void check_finite(const struct gx_result *result, const char *what)
+{
+  for (int q = 0; q < GX_QUANTITIES; q++)
+    for (int k = 0; k < GX_NORMS; k++) {
+      double last = result->measured.last.error[q][k], most = result->measured.max_error[q][k];
+      CHECK(isfinite(last) && isfinite(most) && last > 0 && most >= last, "%s: error %d %d is %g, largest %g", what, q, k, last,
+            most);
+    }
+  assert_true(isfinite(result->measured.drift) && isfinite(result->measured.max_defect));
+}
+
+static void every_method_ends_well(void **state)
+{
+  (void)state;
+  for (int s = 0; gx_space_family[s]; s++)
+    for (int k = 0; gx_clock_family[k]; k++)
+      for (int b = 0; gx_basis_family[b]; b++)
+        for (int consistent = 0; consistent < 2; consistent++)
+          for (int p = 0; gx_problem_family[p]; p++) {
+            if (gx_space_family[s]->of_problem || gx_problem_family[p]->space) continue;
+            bool collocation = gx_space_family[s]->collocation;
+            if (collocation ? b || consistent || gx_problem_family[p]->max_dim > 1
+                            : gx_basis_family[b]->deforms && !gx_space_family[s]->fixed_grid)
+              continue;
+            struct gx_case one = case_draft("mesh.cells=16", "problem.modulus=100");
+            case_set(&one, GX_TIME_CFL, collocation ? "0.05" : "0.2"); /* particles are four times as dense as nodes */
+            case_set(&one, GX_PROBLEM_NAME, gx_problem_family[p]->name);
+            case_set(&one, GX_METHOD_SPACE, gx_space_family[s]->name);
+            case_set(&one, GX_METHOD_CLOCK, gx_clock_family[k]->name);
+            case_set(&one, GX_METHOD_BASIS, gx_basis_family[b]->name);
+            case_set(&one, GX_METHOD_MASS, consistent ? "consistent" : "lumped");
+            gx_parameter_resolve(one.value);
+            struct gx_result result = gx_case_run(&one);
+            char what[160];
+            snprintf(what, sizeof what, "%s %s %s %s mass %d", gx_problem_family[p]->name, gx_space_family[s]->name,
+                     gx_clock_family[k]->name, gx_basis_family[b]->name, consistent);
+            CHECK(result.outcome.status == GX_OK, "%s: %s %s", what, gx_status_name(result.outcome.status),
+                  result.outcome.reason);
+            check_finite(&result, what);
+            CHECK(result.measured.max_error[GX_DISPLACEMENT][GX_INF] < 0.05, "%s: as wrong as the wave is high", what);
+            gx_case_free(&result);
+          }
+}
+
+/* Every space on every clock. */
+static void each_method(void (*check)(struct gx_case one))
+{
+  for (int s = 0; gx_space_family[s]; s++)
+    for (int k = 0; gx_clock_family[k]; k++) {
+      if (gx_space_family[s]->of_problem) continue;
+      struct gx_case one = case_draft("mesh.cells=16", "method.degree=3", "time.periods=0.5");
+      case_set(&one, GX_METHOD_SPACE, gx_space_family[s]->name);
+      case_set(&one, GX_METHOD_CLOCK, gx_clock_family[k]->name);
+      if (gx_space_family[s]->collocation) case_set(&one, GX_TIME_CFL, "0.05");
+      gx_parameter_resolve(one.value);
+      check(one);
+    }
+}
+
+static void check_levels(struct gx_case one)
+{
+  struct gx_result all = case_result(&one);
+  case_set(&one, GX_OUTPUT_MEASURES, "max");
+  struct gx_result most = case_result(&one);
+  case_set(&one, GX_OUTPUT_MEASURES, "final");
+  struct gx_result last = case_result(&one);
+  assert_memory_equal(all.measured.last.error, most.measured.last.error, sizeof all.measured.last.error);
+  assert_memory_equal(all.measured.last.error, last.measured.last.error, sizeof all.measured.last.error);
+  assert_memory_equal(all.measured.max_error, most.measured.max_error, sizeof all.measured.max_error);
+  NEAR(most.measured.last.crossings, all.measured.last.crossings, 0);
+}
+
+static void measuring_more_changes_nothing(void **state)
+{
+  (void)state;
+  each_method(check_levels);
+}
+
+static void check_repetition(struct gx_case one)
+{
+  struct gx_result first = case_result(&one), second = case_result(&one);
+  assert_memory_equal(&first.measured, &second.measured, sizeof first.measured);
+  NEAR(second.time, first.time, 0);
+  NEAR(second.steps, first.steps, 0);
+}
+
+static void repetition_gives_the_same_bits(void **state)
+{
+  (void)state;
+  each_method(check_repetition);
+}
+
+/* The 1-D bar, then an axis-aligned wave along each axis of 2-D and 3-D: all particles on a line across move alike. */
+static void check_reduction(struct gx_case bar)
+{
+  if (gx_space_find(bar.value[GX_METHOD_SPACE].text)->collocation) return; /* one dimension only */
+  struct rig line, box;
+  case_set_integer(&bar, GX_MESH_CELLS, 8);
+  case_set_integer(&bar, GX_MESH_PARTICLES_PER_CELL, 2);
+  case_set_integer(&bar, GX_METHOD_DEGREE, 2);
+  case_set_real(&bar, GX_TIME_PERIODS, 0.2);
+  rig_build(&line, &bar, NULL, NULL, NULL);
+  rig_run(&line, -1);
+  const struct gx_particles *thin = line.simulation.particles;
+  for (int dim = 2; dim <= GX_MAX_DIM; dim++)
+    for (int along = 0; along < dim; along++) {
+      static const char *const axes[] = {"x", "y", "z"};
+      struct gx_case one = bar;
+      case_set(&one, GX_PROBLEM_NAME, "axis-aligned");
+      case_set(&one, GX_PROBLEM_ACTIVE, axes[along]);
+      case_set_integer(&one, GX_PROBLEM_DIMENSION, dim);
+      rig_build(&box, &one, NULL, NULL, NULL);
+      rig_run(&box, -1);
+      NEAR(box.simulation.dt, line.simulation.dt, 0);
+      const struct gx_particles *thick = box.simulation.particles;
+      double speed = 2 * M_PI * 0.05 * 100;
+      for (size_t p = 0; p < thick->n; p++) {
+        size_t q = 0;
+        while (q < thin->n && fabs(thin->X[0][q] - thick->X[along][p]) > 1e-12) q++;
+        assert_true(q < thin->n);
+        for (int d = 0; d < dim; d++) {
+          NEAR(thick->u[d][p], d == along ? thin->u[0][q] : 0, 0.05 * 1e-13);
+          NEAR(thick->v[d][p], d == along ? thin->v[0][q] : 0, speed * 1e-13);
+          for (int e = 0; e < dim; e++) NEAR(thick->F[d * dim + e][p], d == along && e == along ? thin->F[0][q] : d == e, 1e-13);
+        }
+      }
+      rig_free(&box);
+    }
+  rig_free(&line);
+}
+
+static void a_wave_along_one_axis_is_the_bar(void **state)
+{
+  (void)state;
+  each_method(check_reduction);
+}
+
+static void shear(struct gx_particles *particles, void *context)
+{
+  (void)context;
+  for (int d = 0; d < particles->dim; d++)
+    for (size_t p = 0; p < particles->n; p++)
+      particles->v[d][p] = (d + 1) * 0.3 * sin(2 * M_PI * (particles->X[(d + 1) % particles->dim][p] + 0.1 * d));
+}
+
+/* Both grid spaces follow the same continuum through large shear: F and u agree but for the error of the grid. */
+static void spaces_agree_on_shear(void **state)
+{
+  (void)state;
+  for (int dim = 2; dim <= GX_MAX_DIM; dim++) {
+    struct rig rig[2];
+    for (int k = 0; k < 2; k++) {
+      struct gx_case one =
+          case_draft("problem.name=axis-aligned", "problem.amplitude=0", "problem.modulus=1", "problem.poisson=0.3",
+                     "time.dt=0.01", "time.end=0.2", "method.clock=rk4", "mesh.particles_per_cell=2");
+      case_set_integer(&one, GX_PROBLEM_DIMENSION, dim);
+      case_set_integer(&one, GX_MESH_CELLS, dim == 2 ? 24 : 12);
+      case_set(&one, GX_METHOD_SPACE, k ? "moving-mesh" : "standard");
+      gx_parameter_resolve(one.value);
+      rig_build(&rig[k], &one, NULL, shear, NULL);
+      rig_run(&rig[k], -1);
+    }
+    const struct gx_particles *a = rig[0].simulation.particles, *b = rig[1].simulation.particles;
+    double worst = 0, strain = 0;
+    for (size_t p = 0; p < a->n; p++)
+      for (int k = 0; k < dim * dim; k++) {
+        worst = fmax(worst, fabs(a->F[k][p] - b->F[k][p]));
+        strain = fmax(strain, fabs(b->F[k][p] - (k % (dim + 1) == 0)));
+      }
+    CHECK(strain > 0.3, "%g", strain);
+    CHECK(worst < 0.06 * strain, "%d-D: F differs by %g of %g", dim, worst, strain);
+    for (int k = 0; k < 2; k++) rig_free(&rig[k]);
+  }
+}
+
+static void shear_deformed(struct gx_particles *particles, void *context)
+{
+  const double *F = context;
+  shear(particles, NULL);
+  for (int k = 0; k < 9; k++)
+    for (size_t p = 0; p < particles->n; p++) particles->F[k][p] = F[k];
+}
+
+/* dF/dt = L F, in this order: the rate at F = I is L. */
+static void gradients_multiply_from_the_left(void **state)
+{
+  (void)state;
+  double F[] = {1.1, 0.3, 0.2, -0.1, 0.9, 0.4, 0.5, 0, 1.2}, identity[] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  struct gx_case one = case_of("problem.name=axis-aligned", "problem.amplitude=0", "problem.modulus=1", "problem.dimension=3",
+                               "method.clock=rk4", "mesh.particles_per_cell=1", "mesh.cells=4", "method.space=standard");
+  double *rate[2][GX_MAX_STATE];
+  struct gx_state view;
+  for (int k = 0; k < 2; k++) {
+    struct rig rig;
+    rig_build(&rig, &one, NULL, shear_deformed, k ? F : identity);
+    assert_int_equal(gx_stepper_accelerate(rig.stepper, 0), GX_OK);
+    rig.simulation.kind->state(rig.simulation.space, &view);
+    for (int i = 0; i < view.count; i++) rate[k][i] = calloc(view.length[i], sizeof(double));
+    rig.simulation.kind->rates(rig.simulation.space, rate[k]);
+    rig_free(&rig);
+  }
+  for (size_t p = 0; p < view.length[6]; p++) /* the state is u, v, F */
+    for (int i = 0; i < 3; i++)
+      for (int j = 0; j < 3; j++) {
+        double product = 0;
+        for (int k = 0; k < 3; k++) product += rate[0][6 + 3 * i + k][p] * F[3 * k + j];
+        NEAR(rate[1][6 + 3 * i + j][p], product, 1e-13);
+      }
+  for (int i = 0; i < 2 * view.count; i++) free(rate[i % 2][i / 2]);
+}
+
+/* Failures are recorded results that name the particle or the reason, and other cases go on. */
+static void failures_are_results(void **state)
+{
+  (void)state;
+  const struct {
+    enum gx_status status;
+    bool names_particle;
+    const char *set[6];
+  } failing[] = {
+      {GX_TANGLED, true, {"method.basis=linear", "mesh.cells=64", "time.cfl=3"}},
+      {GX_TANGLED, true, {"method.basis=cpgimp", "mesh.particles_per_cell=1"}},
+      {GX_UNSTABLE, false, {"problem.name=bar-linear", "method.space=moving-mesh", "method.stress=rate", "time.cfl=3"}},
+      {GX_LEFT_DOMAIN,
+       true,
+       {"problem.name=bar-linear", "method.basis=linear", "method.position=particle", "problem.amplitude=0.12",
+        "time.periods=20"}},
+      {GX_SINGULAR, false, {"method.mass=consistent", "method.basis=linear", "mesh.particles_per_cell=1", "problem.amplitude=0"}},
+      {GX_SINGULAR, false, {"method.mass=consistent", "method.degree=3", "mesh.particles_per_cell=1", "problem.amplitude=0"}},
+      {GX_REFUSED, false, {"problem.amplitude=0.2"}},
+      {GX_REFUSED, false, {"method.basis=cpgimp", "method.space=moving-mesh"}},
+      {GX_REFUSED, false, {"method.clock=rk4", "method.transfer=pic"}},
+      {GX_REFUSED, false, {"method.clock=rk4", "method.flip=0.9"}},
+      {GX_REFUSED, false, {"time.dt=1e-300"}},
+  };
+  for (size_t i = 0; i < sizeof failing / sizeof *failing; i++) {
+    struct gx_case one = case_from(failing[i].set);
+    struct gx_result result = gx_case_run(&one);
+    CHECK(result.outcome.status == failing[i].status, "case %zu: %s, %s, particle %ld, after %g steps", i,
+          gx_status_name(result.outcome.status), result.outcome.reason, result.outcome.particle, result.steps);
+    assert_true(*result.outcome.reason);
+    assert_int_equal(result.outcome.particle >= 0, failing[i].names_particle);
+    gx_case_free(&result);
+  }
+}
+
+int main(void)
+{
+  gsl_set_error_handler_off();
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(every_method_ends_well),         cmocka_unit_test(measuring_more_changes_nothing),
+      cmocka_unit_test(repetition_gives_the_same_bits), cmocka_unit_test(a_wave_along_one_axis_is_the_bar),
+      cmocka_unit_test(spaces_agree_on_shear),          cmocka_unit_test(gradients_multiply_from_the_left),
+      cmocka_unit_test(failures_are_results),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,287 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What every basis owes a transfer, in 1-D to 3-D, periodic and bounded: partition of unity, gradients that sum to zero,
+ * reproduction of linear fields, scatter and gather adjoint to each other, mass and momentum passed on whole. */
+#include <string.h>
+
+#include "check.h"
+#include "points.h"
+
+enum { N = 150 };
+
+static double x_store[GX_MAX_DIM][N], half_store[GX_MAX_DIM][N], m[N];
+
+struct setting {
+  const struct gx_basis *basis;
+  int dim, degree;
+  struct points points;
+  double *x[GX_MAX_DIM], *half[GX_MAX_DIM];
+};
+
+/* Cell edges and domain ends first, then random points. */
+static void place(struct setting *setting, bool periodic, int cells)
+{
+  uint64_t seed = 37;
+  for (int d = 0; d < setting->dim; d++) {
+    setting->x[d] = x_store[d];
+    setting->half[d] = half_store[d];
+    int edges = cells + d;
+    for (int p = 0; p < N; p++) {
+      x_store[d][p] = p <= edges ? (double)p / edges : check_random(&seed, periodic ? -2 : 0, periodic ? 3 : 1);
+      half_store[d][p] = check_random(&seed, 0.1, 0.5) / edges;
+    }
+  }
+  for (int p = 0; p < N; p++) m[p] = check_random(&seed, 0.5, 1.5);
+}
+
+static void each_setting(void (*check)(const struct setting *setting))
+{
+  for (size_t i = 0; gx_basis_family[i]; i++)
+    for (int dim = 1; dim <= GX_MAX_DIM; dim++)
+      for (int periodic = 0; periodic < 2; periodic++)
+        for (int degree = 1; degree <= (gx_basis_family[i]->has_degree ? GX_MAX_DEGREE : 1); degree++)
+          for (int cells = 2; cells <= 9; cells += 7) {
+            struct setting setting = {.basis = gx_basis_family[i], .dim = dim, .degree = degree};
+            place(&setting, periodic, cells);
+            setting.points = points_at(setting.basis, dim, cells, periodic, degree, N, setting.x, setting.half);
+            check(&setting);
+            points_free(&setting.points);
+          }
+}
+
+/* [components][stored] of a nodal field, and [components][N] of a particle field. */
+static double **fields(int count, size_t length)
+{
+  double **field = calloc((size_t)count, sizeof *field);
+  for (int i = 0; i < count; i++) field[i] = calloc(length, sizeof **field);
+  return field;
+}
+
+static void fields_free(double **field, int count)
+{
+  for (int i = 0; i < count; i++) free(field[i]);
+  free(field);
+}
+
+static void check_unity(const struct setting *setting)
+{
+  const struct gx_grid *grid = &setting->points.grid;
+  int dim = setting->dim;
+  double **field = fields(dim, grid->stored), **value = fields(dim, N), **gradient = fields(dim * dim, N);
+  for (int d = 0; d < dim; d++)
+    for (size_t i = 0; i < grid->stored; i++) field[d][i] = d + 1;
+  gx_transfer_gather(&setting->points.weights, field, value);
+  gx_transfer_gather_gradient(&setting->points.weights, field, gradient);
+  for (int p = 0; p < N; p++) {
+    for (int d = 0; d < dim; d++) NEAR(value[d][p], d + 1, 1e-14);
+    for (int k = 0; k < dim * dim; k++) NEAR(gradient[k][p], 0, 2e-14 * (setting->degree + 1) * 11);
+  }
+  fields_free(field, dim);
+  fields_free(value, dim);
+  fields_free(gradient, dim * dim);
+}
+
+static void weights_sum_to_one_and_gradients_to_zero(void **state)
+{
+  (void)state;
+  each_setting(check_unity);
+}
+
+/* Where function k of an axis sits, such that sum_k S_k(x) site(k) = x. Nodes for hats; the same nodes for GIMP, one ghost
+ * earlier, because a hat averaged over a symmetric domain still reproduces x; means of the inner knots (Greville) for B-splines.
+ * So every basis has linear reproduction; coefficients of a periodic axis are those of the unwrapped line. */
+static double site(const struct setting *setting, int d, int k)
+{
+  const struct gx_axis *axis = &setting->points.grid.axis[d];
+  if (setting->basis->has_domain) return (k - 1) * axis->h;
+  double sum = 0;
+  for (int i = 1; i <= axis->degree; i++) {
+    double knot = k + i - axis->degree;
+    if (!axis->periodic) knot = knot < 0 ? 0 : knot > axis->cells ? axis->cells : knot;
+    sum += knot;
+  }
+  return sum / axis->degree * axis->h;
+}
+
+static void check_linear(const struct setting *setting)
+{
+  const struct gx_grid *grid = &setting->points.grid;
+  const double slope[GX_MAX_DIM] = {1, -2, 0.5};
+  int dim = setting->dim;
+  double **field = fields(dim, grid->stored), **value = fields(dim, N), **gradient = fields(dim * dim, N);
+  for (int d = 0; d < dim; d++)
+    for (size_t i = 0; i < grid->stored; i++)
+      for (int e = 0; e < dim; e++)
+        field[d][i] += (d + 1) * slope[e] * site(setting, e, (int)(i / grid->stride[e] % (size_t)grid->axis[e].stored));
+  gx_transfer_gather(&setting->points.weights, field, value);
+  gx_transfer_gather_gradient(&setting->points.weights, field, gradient);
+  for (int p = 0; p < N; p++)
+    for (int d = 0; d < dim; d++) {
+      double expected = 0;
+      for (int e = 0; e < dim; e++) {
+        double x = setting->x[e][p];
+        expected += (d + 1) * slope[e] * (grid->axis[e].periodic ? x - floor(x) : x);
+        NEAR(gradient[d * dim + e][p], (d + 1) * slope[e], 1e-12);
+      }
+      NEAR(value[d][p], expected, 1e-13);
+    }
+  fields_free(field, dim);
+  fields_free(value, dim);
+  fields_free(gradient, dim * dim);
+}
+
+static void linear_fields_are_reproduced(void **state)
+{
+  (void)state;
+  each_setting(check_linear);
+}
+
+/* sum_i f_i (scatter q)_i = sum_p m_p q_p (gather f)_p, and the same for the gradient and force pair; images included. */
+static void check_adjoint(const struct setting *setting)
+{
+  const struct gx_grid *grid = &setting->points.grid;
+  const struct gx_weights *weights = &setting->points.weights;
+  int dim = setting->dim;
+  uint64_t seed = 41;
+  double **f = fields(dim, grid->stored), **moment = fields(dim, grid->stored), **force = fields(dim, grid->stored);
+  double **q = fields(dim, N), **T = fields(dim * dim, N), **value = fields(dim, N), **gradient = fields(dim * dim, N);
+  double **load = fields(dim, N), **v = fields(dim, N), **all = fields(dim * dim, N);
+  for (int d = 0; d < dim; d++) {
+    for (size_t i = 0; i < grid->stored; i++) f[d][i] = check_random(&seed, -1, 1);
+    gx_grid_spread(grid, f[d]);
+    for (int p = 0; p < N; p++) {
+      q[d][p] = check_random(&seed, -1, 1);
+      load[d][p] = m[p] * q[d][p];
+    }
+  }
+  for (int k = 0; k < dim * dim; k++)
+    for (int p = 0; p < N; p++) T[k][p] = check_random(&seed, -1, 1);
+  gx_transfer_scatter(weights, m, q, NULL, moment);
+  gx_transfer_scatter_force(weights, T, load, force);
+  gx_transfer_gather(weights, f, value);
+  gx_transfer_gather_gradient(weights, f, gradient);
+  double left = 0, right = 0, left_force = 0, right_force = 0;
+  for (int d = 0; d < dim; d++) {
+    gx_grid_fold(grid, moment[d]);
+    gx_grid_fold(grid, force[d]);
+    for (size_t i = 0; i < grid->stored; i++) {
+      left += f[d][i] * moment[d][i];
+      left_force += f[d][i] * force[d][i];
+    }
+    for (int p = 0; p < N; p++) {
+      right += m[p] * q[d][p] * value[d][p];
+      for (int e = 0; e < dim; e++) right_force += T[d * dim + e][p] * gradient[d * dim + e][p];
+    }
+  }
+  NEAR(left, right, 1e-13 * N);
+  NEAR(left_force, right_force + right, 1e-12 * N);
+  gx_transfer_gather_all(weights, f, f, value, v, all); /* the same sums in one pass */
+  for (int p = 0; p < N; p++) {
+    for (int d = 0; d < dim; d++) NEAR(v[d][p], value[d][p], 0);
+    for (int k = 0; k < dim * dim; k++) NEAR(all[k][p], gradient[k][p], 1e-13 * 11);
+  }
+  fields_free(load, dim);
+  double **nodal[] = {f, moment, force}, **vectors[] = {q, value, v}, **tensors[] = {T, gradient, all};
+  for (int i = 0; i < 3; i++) {
+    fields_free(nodal[i], dim);
+    fields_free(vectors[i], dim);
+    fields_free(tensors[i], dim * dim);
+  }
+}
+
+static void scatter_is_adjoint_to_gather(void **state)
+{
+  (void)state;
+  each_setting(check_adjoint);
+}
+
+static double sum_of(const double *field, size_t length)
+{
+  long double sum = 0;
+  for (size_t i = 0; i < length; i++) sum += field[i];
+  return (double)sum;
+}
+
+/* Totals survive scattering and folding; spreading shows each image what it stands for. */
+static void check_totals(const struct setting *setting)
+{
+  const struct gx_grid *grid = &setting->points.grid;
+  int dim = setting->dim;
+  double **moment = fields(dim, grid->stored), **q = fields(dim, N), *total = calloc(grid->stored, sizeof(double));
+  double *alone = calloc(grid->stored, sizeof(double)), momentum[GX_MAX_DIM] = {0};
+  uint64_t seed = 43;
+  for (int d = 0; d < dim; d++)
+    for (int p = 0; p < N; p++) {
+      q[d][p] = check_random(&seed, 0, 1);
+      momentum[d] += m[p] * q[d][p];
+    }
+  gx_transfer_scatter(&setting->points.weights, m, q, total, moment);
+  gx_transfer_scatter(&setting->points.weights, m, NULL, alone, NULL);
+  for (size_t i = 0; i < grid->stored; i++) NEAR(alone[i], total[i], 0);
+  gx_grid_fold(grid, total);
+  CLOSE(sum_of(total, grid->stored), sum_of(m, N), 4e-15);
+  for (int d = 0; d < dim; d++) {
+    gx_grid_fold(grid, moment[d]);
+    CLOSE(sum_of(moment[d], grid->stored), momentum[d], 4e-15);
+  }
+  double folded = sum_of(total, grid->stored);
+  for (size_t i = 0; i < grid->stored; i++)
+    for (int e = 0; e < dim; e++)
+      if ((int)(i / grid->stride[e] % (size_t)grid->axis[e].stored) >= grid->axis[e].functions) NEAR(total[i], 0, 0);
+  gx_grid_spread(grid, total);
+  gx_grid_spread(grid, total);
+  for (size_t i = 0; i < grid->stored; i++)
+    for (int e = 0; e < dim; e++) {
+      int k = (int)(i / grid->stride[e] % (size_t)grid->axis[e].stored), functions = grid->axis[e].functions;
+      if (k >= functions) NEAR(total[i], total[i - (size_t)functions * grid->stride[e]], 0);
+    }
+  for (size_t i = 0; i < grid->stored; i++)
+    for (int e = 0; e < dim; e++)
+      if ((int)(i / grid->stride[e] % (size_t)grid->axis[e].stored) >= grid->axis[e].functions) total[i] = 0;
+  CLOSE(sum_of(total, grid->stored), folded, 1e-15);
+  free(total);
+  free(alone);
+  fields_free(moment, dim);
+  fields_free(q, dim);
+}
+
+static void mass_and_momentum_pass_whole(void **state)
+{
+  (void)state;
+  each_setting(check_totals);
+}
+
+/* Fixing direction d zeroes `edge` layers at each of its ends and nothing else; nothing on a periodic axis. */
+static void check_fixed(const struct setting *setting)
+{
+  const struct gx_grid *grid = &setting->points.grid;
+  double *field = malloc(grid->stored * sizeof(double));
+  for (int d = 0; d < setting->dim; d++) {
+    const struct gx_axis *axis = &grid->axis[d];
+    for (size_t i = 0; i < grid->stored; i++) field[i] = 1;
+    gx_grid_fix(grid, d, field);
+    for (size_t i = 0; i < grid->stored; i++) {
+      int k = (int)(i / grid->stride[d] % (size_t)axis->stored);
+      bool held = !axis->periodic && (k < axis->edge || k >= axis->functions - axis->edge);
+      NEAR(field[i], held ? 0 : 1, 0);
+    }
+  }
+  free(field);
+}
+
+static void fixed_ends_touch_the_ends_alone(void **state)
+{
+  (void)state;
+  each_setting(check_fixed);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(weights_sum_to_one_and_gradients_to_zero),
+      cmocka_unit_test(linear_fields_are_reproduced),
+      cmocka_unit_test(scatter_is_adjoint_to_gather),
+      cmocka_unit_test(mass_and_momentum_pass_whole),
+      cmocka_unit_test(fixed_ends_touch_the_ends_alone),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,269 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Materials: stress is the derivative of energy, its rate the derivative of stress, in every dimension a problem uses. */
+#include <gridcross/problem.h>
+
+#include <string.h>
+
+#include "check.h"
+
+enum { N = 40 };
+
+struct tensors {
+  double store[GX_MAX_TENSOR][N];
+  double *component[GX_MAX_TENSOR];
+};
+
+static struct tensors *point_at(struct tensors *tensors)
+{
+  for (int k = 0; k < GX_MAX_TENSOR; k++) tensors->component[k] = tensors->store[k];
+  return tensors;
+}
+
+/* Deformation gradients well away from det F = 0, with off-diagonal parts. */
+static void fill(struct tensors *F, int dim, uint64_t *seed, double centre)
+{
+  point_at(F);
+  for (int k = 0; k < dim * dim; k++)
+    for (int p = 0; p < N; p++) F->store[k][p] = (k % (dim + 1) == 0 ? centre : 0) + check_random(seed, -0.3, 0.3);
+}
+
+static int largest_dimension(const struct gx_material *material)
+{
+  int most = 0;
+  for (size_t i = 0; gx_problem_family[i]; i++)
+    if (gx_problem_family[i]->material == material && gx_problem_family[i]->max_dim > most) most = gx_problem_family[i]->max_dim;
+  return most;
+}
+
+static void each_material(void (*check)(const struct gx_material *material, const struct gx_moduli *moduli, int dim))
+{
+  for (size_t i = 0; gx_material_family[i]; i++) {
+    const struct gx_material *material = gx_material_family[i];
+    int most = largest_dimension(material);
+    CHECK(most > 0, "no problem uses %s", material->name);
+    for (int dim = 1; dim <= most; dim++)
+      for (int with_bulk = 0; with_bulk < 2; with_bulk++) {
+        struct gx_moduli moduli = gx_material_moduli(7, with_bulk ? 0.3 : 0, 1.5);
+        check(material, &moduli, dim);
+      }
+  }
+}
+
+static void lame_parameters_by_hand(void **state)
+{
+  (void)state;
+  struct gx_moduli moduli = gx_material_moduli(2.6, 0.3, 4);
+  NEAR(moduli.mu, 1, 1e-15);
+  NEAR(moduli.lambda, 1.5, 1e-14);
+  NEAR(moduli.density, 4, 0);
+  NEAR(moduli.young, 2.6, 0);
+  NEAR(gx_material_find("neo-hookean")->wave_speed(&moduli), sqrt(3.5 / 4), 1e-14);
+  moduli = gx_material_moduli(64, 0, 1);
+  NEAR(gx_material_find("neo-hookean")->wave_speed(&moduli), 8, 1e-15);
+  NEAR(gx_material_find("linear-elastic")->wave_speed(&moduli), 8, 1e-15);
+}
+
+static void check_stress(const struct gx_material *material, const struct gx_moduli *moduli, int dim)
+{
+  const double step = 1e-4;
+  struct tensors F, P;
+  double W[4][N];
+  uint64_t seed = 3;
+  fill(&F, dim, &seed, 1.1);
+  assert_int_equal(material->piola(moduli, dim, N, F.component, point_at(&P)->component), -1);
+  for (int k = 0; k < dim * dim; k++) {
+    const double shift[] = {-2, -1, 1, 2};
+    struct tensors moved;
+    for (int i = 0; i < 4; i++) {
+      memcpy(moved.store, F.store, sizeof F.store);
+      point_at(&moved);
+      for (int p = 0; p < N; p++) moved.store[k][p] += shift[i] * step;
+      material->energy(moduli, dim, N, moved.component, W[i]);
+    }
+    for (int p = 0; p < N; p++)
+      NEAR((W[0][p] - 8 * W[1][p] + 8 * W[2][p] - W[3][p]) / (12 * step), P.store[k][p], 1e-9 * moduli->young);
+  }
+}
+
+static void stress_is_the_derivative_of_energy(void **state)
+{
+  (void)state;
+  each_material(check_stress);
+}
+
+static void check_rate(const struct gx_material *material, const struct gx_moduli *moduli, int dim)
+{
+  const double step = 1e-4, shift[] = {-2, -1, 1, 2};
+  struct tensors F, rate_F, rate_P, P[4];
+  uint64_t seed = 5;
+  fill(&F, dim, &seed, 1);
+  fill(&rate_F, dim, &seed, 0.2);
+  material->piola_rate(moduli, dim, N, F.component, rate_F.component, point_at(&rate_P)->component);
+  for (int i = 0; i < 4; i++) {
+    struct tensors moved;
+    point_at(&moved);
+    for (int k = 0; k < dim * dim; k++)
+      for (int p = 0; p < N; p++) moved.store[k][p] = F.store[k][p] + shift[i] * step * rate_F.store[k][p];
+    material->piola(moduli, dim, N, moved.component, point_at(&P[i])->component);
+  }
+  for (int k = 0; k < dim * dim; k++)
+    for (int p = 0; p < N; p++)
+      NEAR((P[0].store[k][p] - 8 * P[1].store[k][p] + 8 * P[2].store[k][p] - P[3].store[k][p]) / (12 * step), rate_P.store[k][p],
+           1e-8 * moduli->young);
+}
+
+static void stress_rate_is_the_derivative_of_stress(void **state)
+{
+  (void)state;
+  each_material(check_rate);
+}
+
+/* Straight from their formulas, P and sigma alike in 1-D. */
+static void one_dimension_by_hand(void **state)
+{
+  (void)state;
+  struct gx_moduli moduli = gx_material_moduli(1e4, 0, 1);
+  for (double stretch = 0.3; stretch < 2; stretch += 0.1) {
+    double F = stretch, P, sigma, W;
+    double *in[] = {&F}, *out[] = {&P}, *cauchy[] = {&sigma};
+    gx_material_find("neo-hookean")->piola(&moduli, 1, 1, in, out);
+    gx_material_cauchy(1, 1, in, out, cauchy);
+    NEAR(P, 5e3 * (F - 1 / F), 1e-11);
+    NEAR(sigma, P, 1e-11);
+    gx_material_find("neo-hookean")->energy(&moduli, 1, 1, in, &W);
+    NEAR(W, 5e3 * ((F * F - 1) / 2 - log(F)), 1e-11);
+    gx_material_find("linear-elastic")->piola(&moduli, 1, 1, in, out);
+    gx_material_cauchy(1, 1, in, out, cauchy);
+    NEAR(P, 1e4 * (F - 1), 0);
+    NEAR(sigma, P, 1e-11);
+    gx_material_find("linear-elastic")->energy(&moduli, 1, 1, in, &W);
+    NEAR(W, 5e3 * (F - 1) * (F - 1), 1e-11);
+  }
+}
+
+/* sigma = (mu (F F^T - I) + lambda ln J I) / J, by hand for simple shear with stretch: F = [[2, 1], [0, 1]], J = 2. */
+static void cauchy_by_hand(void **state)
+{
+  (void)state;
+  struct gx_moduli moduli = gx_material_moduli(2.6, 0.3, 1); /* mu 1, lambda 1.5 */
+  double f[] = {2, 1, 0, 1}, p[4], s[4];
+  double *F[] = {f, f + 1, f + 2, f + 3}, *P[] = {p, p + 1, p + 2, p + 3}, *sigma[] = {s, s + 1, s + 2, s + 3};
+  gx_material_find("neo-hookean")->piola(&moduli, 2, 1, F, P);
+  gx_material_cauchy(2, 1, F, P, sigma);
+  double bulk = 1.5 * log(2) / 2;
+  NEAR(s[0], 2 + bulk, 1e-14);
+  NEAR(s[1], 0.5, 1e-14);
+  NEAR(s[2], 0.5, 1e-14);
+  NEAR(s[3], bulk, 1e-14);
+}
+
+static void check_symmetry(const struct gx_material *material, const struct gx_moduli *moduli, int dim)
+{
+  struct tensors F, P, sigma;
+  uint64_t seed = 11;
+  fill(&F, dim, &seed, 1);
+  material->piola(moduli, dim, N, F.component, point_at(&P)->component);
+  gx_material_cauchy(dim, N, F.component, P.component, point_at(&sigma)->component);
+  for (int i = 0; i < dim; i++)
+    for (int j = 0; j < i; j++)
+      for (int p = 0; p < N; p++) NEAR(sigma.store[i * dim + j][p], sigma.store[j * dim + i][p], 1e-13 * moduli->young);
+}
+
+static void cauchy_stress_is_symmetric(void **state)
+{
+  (void)state;
+  each_material(check_symmetry);
+}
+
+/* W(RF) = W(F), P(RF) = R P(F) for a rotation R by 0.7 in every plane. */
+static void check_rotation(const struct gx_material *material, const struct gx_moduli *moduli, int dim)
+{
+  struct tensors F, P, turned, turned_P;
+  double W[N], turned_W[N];
+  for (int a = 0; a < dim; a++)
+    for (int b = 0; b < dim; b++) {
+      uint64_t seed = 13;
+      if (a == b) continue;
+      fill(&F, dim, &seed, 1.1);
+      memcpy(turned.store, F.store, sizeof F.store);
+      point_at(&turned);
+      for (int j = 0; j < dim; j++)
+        for (int p = 0; p < N; p++) {
+          double above = F.store[a * dim + j][p], below = F.store[b * dim + j][p];
+          turned.store[a * dim + j][p] = cos(0.7) * above - sin(0.7) * below;
+          turned.store[b * dim + j][p] = sin(0.7) * above + cos(0.7) * below;
+        }
+      material->piola(moduli, dim, N, F.component, point_at(&P)->component);
+      material->piola(moduli, dim, N, turned.component, point_at(&turned_P)->component);
+      material->energy(moduli, dim, N, F.component, W);
+      material->energy(moduli, dim, N, turned.component, turned_W);
+      for (int p = 0; p < N; p++) NEAR(turned_W[p], W[p], 1e-13 * moduli->young);
+      for (int j = 0; j < dim; j++)
+        for (int p = 0; p < N; p++)
+          NEAR(turned_P.store[a * dim + j][p], cos(0.7) * P.store[a * dim + j][p] - sin(0.7) * P.store[b * dim + j][p],
+               1e-12 * moduli->young);
+    }
+}
+
+static void rotations_change_nothing(void **state)
+{
+  (void)state;
+  each_material(check_rotation);
+}
+
+static void check_rest(const struct gx_material *material, const struct gx_moduli *moduli, int dim)
+{
+  struct tensors F = {0}, P;
+  double W[N];
+  point_at(&F);
+  for (int d = 0; d < dim; d++)
+    for (int p = 0; p < N; p++) F.store[d * dim + d][p] = 1;
+  assert_int_equal(material->piola(moduli, dim, N, F.component, point_at(&P)->component), -1);
+  material->energy(moduli, dim, N, F.component, W);
+  for (int k = 0; k < dim * dim; k++)
+    for (int p = 0; p < N; p++) NEAR(P.store[k][p], 0, 0);
+  for (int p = 0; p < N; p++) NEAR(W[p], 0, 0);
+}
+
+static void undeformed_is_free_of_stress(void **state)
+{
+  (void)state;
+  each_material(check_rest);
+}
+
+static void check_tangled(const struct gx_material *material, const struct gx_moduli *moduli, int dim)
+{
+  const double bad[] = {0, -0.5, NAN, INFINITY, -INFINITY};
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+    for (int at = 0; at < N; at += 13) {
+      struct tensors F, P;
+      uint64_t seed = 17;
+      fill(&F, dim, &seed, 1.1);
+      for (int k = 0; k < dim * dim; k++) F.store[k][at] = k % (dim + 1) == 0;
+      F.store[0][at] = bad[i];
+      if (at + 2 < N) memcpy(&F.store[0][at + 2], &bad[i], sizeof bad[i]); /* the first one is meant */
+      assert_int_equal(material->piola(moduli, dim, N, F.component, point_at(&P)->component), at);
+    }
+}
+
+static void tangling_is_reported_with_its_particle(void **state)
+{
+  (void)state;
+  each_material(check_tangled);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(lame_parameters_by_hand),
+      cmocka_unit_test(stress_is_the_derivative_of_energy),
+      cmocka_unit_test(stress_rate_is_the_derivative_of_stress),
+      cmocka_unit_test(one_dimension_by_hand),
+      cmocka_unit_test(cauchy_by_hand),
+      cmocka_unit_test(cauchy_stress_is_symmetric),
+      cmocka_unit_test(rotations_change_nothing),
+      cmocka_unit_test(undeformed_is_free_of_stress),
+      cmocka_unit_test(tangling_is_reported_with_its_particle),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

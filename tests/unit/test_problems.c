@@ -1,0 +1,207 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Problems: exact v and F are derivatives of exact u, and the body force closes the balance of momentum,
+ * rho0 d2u/dt2 = Div P + rho0 b, by numerical derivatives of P. */
+#include <gridcross/problem.h>
+
+#include <string.h>
+
+#include "check.h"
+
+enum { N = 30 };
+
+struct field {
+  double store[GX_MAX_TENSOR][N];
+  double *component[GX_MAX_TENSOR];
+};
+
+static double *const *of(struct field *field)
+{
+  for (int k = 0; k < GX_MAX_TENSOR; k++) field->component[k] = field->store[k];
+  return field->component;
+}
+
+static struct gx_problem_options options_of(const struct gx_problem *problem, int dim, unsigned active)
+{
+  struct gx_problem_options options = {
+      .dim = dim,
+      .amplitude = 0.05,
+      .mode = problem->has_mode ? 2 : 1,
+      .moduli = gx_material_moduli(30, problem->has_poisson ? 0.3 : 0, 2.3),
+  };
+  for (int d = 0; d < dim; d++) {
+    options.active[d] = active >> d & 1;
+    options.phase[d] = problem->has_directions ? 0.4 + 0.9 * d : 0;
+  }
+  return options;
+}
+
+/* Random points shifted by `shift` along direction e. */
+static struct gx_posed *pose(const struct gx_problem *problem, const struct gx_problem_options *options, int e, double shift)
+{
+  struct field X;
+  uint64_t seed = 23;
+  of(&X);
+  for (int p = 0; p < N; p++)
+    for (int d = 0; d < options->dim; d++) X.store[d][p] = check_random(&seed, 0, 1) + (d == e ? shift : 0);
+  return gx_problem_pose(problem, options, N, X.component);
+}
+
+static void each_problem(void (*check)(const struct gx_problem *problem, const struct gx_problem_options *options, double t))
+{
+  for (size_t i = 0; gx_problem_family[i]; i++) {
+    const struct gx_problem *problem = gx_problem_family[i];
+    if (problem->space) continue; /* not a continuum */
+    for (int dim = 1; dim <= problem->max_dim; dim++)
+      for (unsigned active = problem->has_directions ? 1 : (1u << dim) - 1; active < 1u << dim; active++)
+        for (double t = 0; t < 0.6; t += 0.17) {
+          struct gx_problem_options options = options_of(problem, dim, active);
+          check(problem, &options, t);
+        }
+  }
+}
+
+static const double shift[] = {-2, -1, 1, 2};
+
+/* fourth-order central difference of component k at point p */
+static double slope(const struct field *four, int k, int p, double step)
+{
+  return (four[0].store[k][p] - 8 * four[1].store[k][p] + 8 * four[2].store[k][p] - four[3].store[k][p]) / (12 * step);
+}
+
+static void check_exact(const struct gx_problem *problem, const struct gx_problem_options *options, double t)
+{
+  const double step = 1e-3;
+  int dim = options->dim;
+  struct gx_posed *posed = pose(problem, options, 0, 0);
+  struct field u, v, F, u_at[4];
+  problem->exact(posed, t, of(&u), of(&v), of(&F));
+  for (int i = 0; i < 4; i++) problem->exact(posed, t + step * shift[i], of(&u_at[i]), NULL, NULL);
+  double speed = posed->speed * 2 * M_PI * options->mode * options->amplitude;
+  for (int d = 0; d < dim; d++)
+    for (int p = 0; p < N; p++) NEAR(slope(u_at, d, p, step), v.store[d][p], 1e-5 * speed);
+  for (int e = 0; e < dim; e++) {
+    for (int i = 0; i < 4; i++) {
+      struct gx_posed *moved = pose(problem, options, e, step * shift[i]);
+      problem->exact(moved, t, of(&u_at[i]), NULL, NULL);
+      gx_problem_free(moved);
+    }
+    for (int d = 0; d < dim; d++)
+      for (int p = 0; p < N; p++) NEAR((d == e) + slope(u_at, d, p, step), F.store[d * dim + e][p], 1e-8);
+  }
+  for (int d = 0; d < dim; d++)
+    for (int p = 0; p < N && !options->active[d]; p++) NEAR(u.store[d][p], 0, 0);
+  gx_problem_free(posed);
+}
+
+static void velocity_and_gradient_are_derivatives(void **state)
+{
+  (void)state;
+  each_problem(check_exact);
+}
+
+static void check_balance(const struct gx_problem *problem, const struct gx_problem_options *options, double t)
+{
+  const double step = 1e-3;
+  int dim = options->dim;
+  double divergence[GX_MAX_DIM][N] = {{0}};
+  for (int e = 0; e < dim; e++) {
+    struct field F, P[4];
+    for (int i = 0; i < 4; i++) {
+      struct gx_posed *moved = pose(problem, options, e, step * shift[i]);
+      problem->exact(moved, t, NULL, NULL, of(&F));
+      assert_int_equal(problem->material->piola(&options->moduli, dim, N, F.component, of(&P[i])), -1);
+      gx_problem_free(moved);
+    }
+    for (int d = 0; d < dim; d++)
+      for (int p = 0; p < N; p++) divergence[d][p] += slope(P, d * dim + e, p, step);
+  }
+  struct gx_posed *posed = pose(problem, options, 0, 0);
+  struct field v[4], b = {0};
+  for (int i = 0; i < 4; i++) problem->exact(posed, t + 0.1 * step * shift[i], NULL, of(&v[i]), NULL);
+  of(&b);
+  if (problem->body) problem->body(posed, t, b.component);
+  double wave = 2 * M_PI * options->mode, scale = options->moduli.young * options->amplitude * wave * wave;
+  for (int d = 0; d < dim; d++)
+    for (int p = 0; p < N; p++)
+      NEAR(options->moduli.density * (slope(v, d, p, 0.1 * step) - b.store[d][p]), divergence[d][p], 3e-8 * scale);
+  gx_problem_free(posed);
+}
+
+static void body_force_balances_momentum(void **state)
+{
+  (void)state;
+  each_problem(check_balance);
+}
+
+/* steffen2010 eq. 131: b = C^2 pi^2 u (2 F^-2 + 1), also for the axis-aligned wave along one direction. */
+static void neo_hookean_body_by_hand(void **state)
+{
+  (void)state;
+  const char *const names[] = {"bar-neo-hookean", "axis-aligned"};
+  for (int i = 0; i < 2; i++) {
+    const struct gx_problem *problem = gx_problem_find(names[i]);
+    struct gx_problem_options options = {
+        .dim = 1, .amplitude = 0.05, .mode = 1, .moduli = gx_material_moduli(1e4, 0, 1), .active = {true}};
+    double X[] = {0.1, 0.3, 0.55}, b[3], u[3], F[3];
+    struct gx_posed *posed = gx_problem_pose(problem, &options, 3, (double *[]){X});
+    problem->exact(posed, 0.003, (double *[]){u}, NULL, (double *[]){F});
+    problem->body(posed, 0.003, (double *[]){b});
+    for (int p = 0; p < 3; p++) {
+      NEAR(u[p], 0.05 * sin(2 * M_PI * X[p]) * cos(0.3 * M_PI), 1e-16);
+      NEAR(F[p], 1 + 0.1 * M_PI * cos(2 * M_PI * X[p]) * cos(0.3 * M_PI), 1e-15);
+      CLOSE(b[p], 1e4 * M_PI * M_PI * u[p] * (2 / (F[p] * F[p]) + 1), 1e-13);
+    }
+    gx_problem_free(posed);
+  }
+}
+
+static void linear_bar_by_hand(void **state)
+{
+  (void)state;
+  const struct gx_problem *problem = gx_problem_find("bar-linear");
+  struct gx_problem_options options = {
+      .dim = 1, .amplitude = 0.05, .mode = 1, .moduli = gx_material_moduli(16, 0, 1), .active = {true}};
+  double X = 0.2, u, v;
+  struct gx_posed *posed = gx_problem_pose(problem, &options, 1, (double *[]){&X});
+  problem->exact(posed, 0.01, (double *[]){&u}, (double *[]){&v}, NULL);
+  NEAR(u, 0.05 * sin(0.4 * M_PI) * sin(0.08 * M_PI), 1e-16);
+  NEAR(v, 0.05 * sin(0.4 * M_PI) * 8 * M_PI * cos(0.08 * M_PI), 1e-14);
+  assert_null(problem->body);
+  gx_problem_free(posed);
+}
+
+/* After `cycles`/c the motion repeats, and not after half of it. */
+static void check_period(const struct gx_problem *problem, const struct gx_problem_options *options, double t)
+{
+  struct gx_posed *posed = pose(problem, options, 0, 0);
+  struct field u, later, half;
+  double period = problem->cycles / (posed->speed * options->mode), difference = 0;
+  problem->exact(posed, t, of(&u), NULL, NULL);
+  problem->exact(posed, t + period, of(&later), NULL, NULL);
+  problem->exact(posed, t + period / 2, of(&half), NULL, NULL);
+  for (int d = 0; d < options->dim; d++)
+    for (int p = 0; p < N; p++) {
+      NEAR(later.store[d][p], u.store[d][p], 1e-15);
+      difference = fmax(difference, fabs(u.store[d][p] - half.store[d][p]));
+    }
+  assert_true(t == 0 || difference > 1e-3);
+  gx_problem_free(posed);
+}
+
+static void motion_is_periodic(void **state)
+{
+  (void)state;
+  each_problem(check_period);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(velocity_and_gradient_are_derivatives),
+      cmocka_unit_test(body_force_balances_momentum),
+      cmocka_unit_test(neo_hookean_body_by_hand),
+      cmocka_unit_test(linear_bar_by_hand),
+      cmocka_unit_test(motion_is_periodic),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
