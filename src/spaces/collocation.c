@@ -144,6 +144,8 @@ enum gx_status gx_collocation_create(struct gx_space **space, const struct gx_sp
                                      const struct gx_posed *posed, struct gx_outcome *outcome)
 {
   if (particles->dim > 1) return gx_status_set(outcome, GX_REFUSED, -1, "%s is for one dimension", kind->name);
+  if (options->degree < 2)
+    return gx_status_set(outcome, GX_REFUSED, -1, "a spline of degree 1 has no derivative at its own sites: use degree 2 or more");
   bool closed = !options->periodic && !options->symmetric;
   if (closed && options->reference && options->stress_rate)
     return gx_status_set(
