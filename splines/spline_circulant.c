@@ -31,7 +31,7 @@ static bool plan(struct gx_spline_circulant *c)
   return c->forward && c->backward;
 }
 
-/* weight[j] of the function `degree / 2 - j` sites to the left of the point, at site 0. */
+/* Derivatives at site 0 of the functions that do not vanish there; the first one's number, ghosts counted. */
 static enum gx_spline_status stencil(const struct gx_spline_circulant *c, int order, double *weight, size_t *first,
                                      struct gx_spline_error *error)
 {
@@ -69,8 +69,6 @@ static enum gx_spline_status find_symbols(struct gx_spline_circulant *c, struct 
   for (size_t m = 0; m < half; m++) {
     c->solve[m] = 1 / (c->symbol[m] * (double)n);
     for (int order = p - 1; order >= 0; order--) c->symbol[(size_t)order * half + m] *= c->solve[m];
-    if (2 * m == n) /* sin(pi j) is zero, whatever rounding says */
-      for (int order = 1; order < p; order += 2) c->symbol[(size_t)order * half + m] = 0;
   }
   return GX_SPLINE_OK;
 }

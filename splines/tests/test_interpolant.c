@@ -120,6 +120,8 @@ static void refusals(void **unused)
   /* Function 5 begins at knot 0.4. */
   refuses(GX_SPLINE_SCHOENBERG_WHITNEY, 5, "site 5 at 0.39",
           gx_spline_interpolant_collocate(s, (const double[]){0, 0.1, 0.2, 0.3, 0.35, 0.39, 0.9, 1}, &error));
+  refuses(GX_SPLINE_SCHOENBERG_WHITNEY, 5, "between knots 0.4",
+          gx_spline_interpolant_collocate(s, (const double[]){0, 0.1, 0.2, 0.3, 0.35, s->knots->knot[5], 0.9, 1}, &error));
   /* Function 1 ends at knot 0.4, and vanishes there. */
   refuses(GX_SPLINE_SCHOENBERG_WHITNEY, 1, "between knots 0 and 0.4",
           gx_spline_interpolant_collocate(s, (const double[]){0, s->knots->knot[5], 0.5, 0.6, 0.7, 0.8, 0.9, 1}, &error));
