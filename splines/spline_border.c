@@ -10,9 +10,9 @@
 
 struct gx_spline_border {
   size_t rows, width;
-  double *tail;  /* [width][2 degree + 1], rows of [W C], columns wrapping */
-  double *right; /* [rows - width][width], B^-1 V */
-  double schur[GX_SPLINE_MAX_DEGREE * GX_SPLINE_MAX_DEGREE], tau[GX_SPLINE_MAX_DEGREE];
+  double *tail;                                                /* [width][2 degree + 1], rows of [W C], columns wrapping */
+  double *right;                                               /* [rows - width][width], B^-1 V */
+  double inverse[GX_SPLINE_MAX_DEGREE * GX_SPLINE_MAX_DEGREE]; /* [width][width], S^-1 */
 };
 
 struct gx_spline_border *gx_spline_border_create(int degree, size_t rows)
@@ -38,9 +38,11 @@ void gx_spline_border_free(struct gx_spline_border *border)
   free(border);
 }
 
+/* offset: less than rows in magnitude */
 static size_t column(const struct gx_spline_border *border, size_t row, int offset)
 {
-  return (row + border->rows + (size_t)(ptrdiff_t)offset) % border->rows;
+  ptrdiff_t at = (ptrdiff_t)row + offset, rows = (ptrdiff_t)border->rows;
+  return (size_t)(at < 0 ? at + rows : at >= rows ? at - rows : at);
 }
 
 static struct gx_spline_band inner(const struct gx_spline_border *border, const struct gx_spline_band *band)
@@ -67,6 +69,25 @@ static void cut_columns(struct gx_spline_border *border, const struct gx_spline_
   }
 }
 
+/* By Householder QR; schur is overwritten. Returns -1 when it is singular to rounding. */
+static int invert(double *schur, size_t w, double *inverse)
+{
+  double tau[GX_SPLINE_MAX_DEGREE];
+  gsl_matrix_view S = gsl_matrix_view_array(schur, w, w);
+  gsl_vector_view t = gsl_vector_view_array(tau, w);
+  gsl_linalg_QR_decomp(&S.matrix, &t.vector);
+  for (size_t r = 0; r < w; r++)
+    if (!(fabs(schur[r * w + r]) > DBL_EPSILON)) return -1;
+  for (size_t c = 0; c < w; c++) {
+    double unit[GX_SPLINE_MAX_DEGREE] = {0};
+    unit[c] = 1;
+    gsl_vector_view e = gsl_vector_view_array(unit, w);
+    gsl_linalg_QR_svx(&S.matrix, &t.vector, &e.vector);
+    for (size_t r = 0; r < w; r++) inverse[r * w + c] = unit[r];
+  }
+  return 0;
+}
+
 long gx_spline_border_factor(struct gx_spline_border *border, const struct gx_spline_band *band)
 {
   const size_t stride = 2 * (size_t)band->degree + 1;
@@ -77,10 +98,10 @@ long gx_spline_border_factor(struct gx_spline_border *border, const struct gx_sp
   long fault = gx_spline_band_factor(&B);
   if (fault >= 0 || !w) return fault;
   gx_spline_band_solve_many(&B, w, border->right, border->right);
-  memset(border->schur, 0, sizeof border->schur);
+  double schur[GX_SPLINE_MAX_DEGREE * GX_SPLINE_MAX_DEGREE] = {0};
   for (size_t r = 0; r < w; r++) {
     const double *row = border->tail + r * stride + band->degree;
-    double *sum = border->schur + r * w;
+    double *sum = schur + r * w;
     for (int d = -band->lower; d <= band->upper; d++) {
       size_t j = column(border, m + r, d);
       if (j >= m)
@@ -89,12 +110,17 @@ long gx_spline_border_factor(struct gx_spline_border *border, const struct gx_sp
         for (size_t c = 0; c < w; c++) sum[c] -= row[d] * border->right[j * w + c];
     }
   }
-  gsl_matrix_view S = gsl_matrix_view_array(border->schur, w, w);
-  gsl_vector_view tau = gsl_vector_view_array(border->tau, w);
-  gsl_linalg_QR_decomp(&S.matrix, &tau.vector);
-  for (size_t r = 0; r < w; r++)
-    if (!(fabs(border->schur[r * w + r]) > DBL_EPSILON)) return (long)(m + r);
-  return -1;
+  return invert(schur, w, border->inverse) ? (long)m : -1;
+}
+
+/* x_1 -= (B^-1 V) x_2 */
+static void subtract(size_t m, size_t w, const double *restrict right, const double *restrict end, double *restrict x)
+{
+  for (size_t i = 0; i < m; i++) {
+    double sum = 0;
+    for (size_t r = 0; r < w; r++) sum += right[i * w + r] * end[r];
+    x[i] -= sum;
+  }
 }
 
 void gx_spline_border_solve(const struct gx_spline_border *border, const struct gx_spline_band *band, size_t count,
@@ -107,8 +133,6 @@ void gx_spline_border_solve(const struct gx_spline_border *border, const struct 
   else
     gx_spline_band_solve_many(&B, count, b, x);
   if (!w) return;
-  gsl_matrix_const_view S = gsl_matrix_const_view_array(border->schur, w, w);
-  gsl_vector_const_view tau = gsl_vector_const_view_array(border->tau, w);
   for (size_t s = 0; s < count; s++) {
     double end[GX_SPLINE_MAX_DEGREE];
     for (size_t r = 0; r < w; r++) {
@@ -119,11 +143,16 @@ void gx_spline_border_solve(const struct gx_spline_border *border, const struct 
         if (j < m) end[r] -= row[d] * x[j * count + s];
       }
     }
-    gsl_vector_view e = gsl_vector_view_array(end, w);
-    gsl_linalg_QR_svx(&S.matrix, &tau.vector, &e.vector);
-    for (size_t r = 0; r < w; r++) x[(m + r) * count + s] = end[r];
+    for (size_t r = 0; r < w; r++) {
+      double sum = 0;
+      for (size_t c = 0; c < w; c++) sum += border->inverse[r * w + c] * end[c];
+      x[(m + r) * count + s] = sum;
+    }
   }
-  for (size_t i = 0; i < m; i++)
-    for (size_t r = 0; r < w; r++)
-      for (size_t s = 0; s < count; s++) x[i * count + s] -= border->right[i * w + r] * x[(m + r) * count + s];
+  if (count == 1)
+    subtract(m, w, border->right, x + m, x);
+  else
+    for (size_t i = 0; i < m; i++)
+      for (size_t r = 0; r < w; r++)
+        for (size_t s = 0; s < count; s++) x[i * count + s] -= border->right[i * w + r] * x[(m + r) * count + s];
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cyclic banded systems: the last `width` rows and columns border a band, which is again a collocation matrix of B-splines and so
- * needs no pivoting; the small Schur complement is solved by Householder QR.
+ * needs no pivoting; the small Schur complement is inverted by Householder QR.
  *
  * A = [B V; W C], x_2 = S^-1 (b_2 - W B^-1 b_1), x_1 = B^-1 b_1 - (B^-1 V) x_2, S = C - W B^-1 V. */
 #ifndef GRIDCROSS_SPLINE_BORDER_H

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../core/kernel.h"
 #include "../core/vector.h"
 
 static struct gx_collocation *of(struct gx_space *space)
@@ -197,6 +198,15 @@ enum gx_status gx_collocation_project(struct gx_space *space)
   return GX_OK;
 }
 
+/* a <- factor a, or factor F a */
+GX_CLONES static void scale(size_t n, double factor, const double *restrict F, double *restrict a)
+{
+  if (F)
+    for (size_t p = 0; p < n; p++) a[p] *= factor * F[p];
+  else
+    for (size_t p = 0; p < n; p++) a[p] *= factor;
+}
+
 enum gx_status gx_collocation_accelerate(struct gx_space *space, double t)
 {
   struct gx_collocation *c = of(space);
@@ -207,17 +217,16 @@ enum gx_status gx_collocation_accelerate(struct gx_space *space, double t)
   long tangled = -1;
   if (c->options.reference && !c->options.stress_rate) {
     deformation_gradient(c);
-    tangled = stress_from(c, c->n + (c->stress_at_ends ? 2 : 0), c->F, c->P);
     memcpy(F, c->F, c->n * sizeof(double));
-    memcpy(P, c->P, c->n * sizeof(double));
+    tangled = stress_from(c, c->n + (c->stress_at_ends ? 2 : 0), c->F, c->stress_at_ends ? c->P : P);
+    if (c->stress_at_ends) memcpy(P, c->P, c->n * sizeof(double));
   } else if (!c->options.stress_rate) {
     tangled = stress_from(c, c->n, F, P);
   }
   if (tangled >= 0)
     return gx_status_set(space->outcome, GX_TANGLED, tangled < (long)c->n ? tangled : -1, "det F is not a positive number");
-  diverge(c, c->options.reference && !c->options.stress_rate ? c->P : P);
-  bool factor = !c->options.reference && !c->options.papers_divergence;
-  for (size_t p = 0; p < c->n; p++) c->a[p] *= (factor ? F[p] : 1) / density;
+  diverge(c, c->stress_at_ends ? c->P : P);
+  scale(c->n, 1 / density, !c->options.reference && !c->options.papers_divergence ? F : NULL, c->a);
   if (!posed->problem->body) return GX_OK;
   posed->problem->body(posed, t, particles->b);
   gx_vector_add(c->n, 1, particles->b[0], c->a);

@@ -31,13 +31,14 @@ static struct gx_value integer(long value)
 }
 
 /* One run of STEPS steps; ns per particle-step. */
-static double run(const char *space, const char *frame, int degree)
+static double run(const char *space, const char *frame, const char *boundary, int degree)
 {
   struct gx_case one = {0};
   one.value[GX_PROBLEM_NAME] = text("bar-linear");
   one.value[GX_PROBLEM_AMPLITUDE] = (struct gx_value){.type = GX_REAL, .real = 0.005};
   one.value[GX_MESH_CELLS] = integer(CELLS);
   one.value[GX_MESH_PARTICLES_PER_CELL] = integer(PER_CELL);
+  one.value[GX_PROBLEM_BOUNDARY] = text(boundary);
   one.value[GX_METHOD_SPACE] = text(space);
   one.value[GX_METHOD_FRAME] = text(frame);
   one.value[GX_METHOD_DEGREE] = integer(degree);
@@ -78,20 +79,23 @@ static double gsl_point(int degree)
 int main(void)
 {
   gsl_set_error_handler_off();
-  printf("degree  moving-mesh  spline-particle reference  ratio  current  spline-grid reference  current  gsl point\n");
-  for (int degree = 3; degree <= 9; degree += 2) {
-    double least[6] = {INFINITY, INFINITY, INFINITY, INFINITY, INFINITY, INFINITY};
-    for (int r = 0; r < REPETITIONS; r++) {
-      const double ns[6] = {run("moving-mesh", "", degree),
-                            run("spline-particle", "reference", degree),
-                            run("spline-particle", "current", degree),
-                            run("spline-grid", "reference", degree),
-                            run("spline-grid", "current", degree),
-                            gsl_point(degree)};
-      for (int i = 0; i < 6; i++) least[i] = fmin(least[i], ns[i]);
+  static const char *const boundaries[] = {"fixed", "periodic"};
+  printf("ends      degree  moving-mesh  spline-particle reference  ratio  current  spline-grid reference  current  gsl point\n");
+  for (int b = 0; b < 2; b++)
+    for (int degree = 3; degree <= 9; degree += 2) {
+      const char *ends = boundaries[b];
+      double least[6] = {INFINITY, INFINITY, INFINITY, INFINITY, INFINITY, INFINITY};
+      for (int r = 0; r < REPETITIONS; r++) {
+        const double ns[6] = {run("moving-mesh", "", ends, degree),
+                              run("spline-particle", "reference", ends, degree),
+                              run("spline-particle", "current", ends, degree),
+                              run("spline-grid", "reference", ends, degree),
+                              run("spline-grid", "current", ends, degree),
+                              gsl_point(degree)};
+        for (int i = 0; i < 6; i++) least[i] = fmin(least[i], ns[i]);
+      }
+      printf("%-8s %7d %12.2f %26.2f %6.2f %8.1f %22.2f %8.1f %10.1f\n", ends, degree, least[0], least[1], least[1] / least[0],
+             least[2], least[3], least[4], least[5]);
     }
-    printf("%6d %12.2f %26.2f %6.2f %8.1f %22.2f %8.1f %10.1f\n", degree, least[0], least[1], least[1] / least[0], least[2],
-           least[3], least[4], least[5]);
-  }
   return 0;
 }
