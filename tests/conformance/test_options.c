@@ -224,6 +224,41 @@ static void a_reference_run_has_a_finer_step(void **state)
   assert_true(result.reference[GX_DISPLACEMENT][GX_INF] > 1e-9);
 }
 
+/* 1.1/0.1 and 0.3/0.1 miss 11 and 3 by round-off; 0.25/0.1 is 2.5. */
+static void steps_meet_or_pass_the_end(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *end, *landing;
+    double steps, dt;
+  } rows[] = {{"1.1", "exact", 11, 0.1},      {"1.1", "past", 11, 0.1}, {"0.3", "exact", 3, 0.1},
+              {"0.25", "exact", 3, 0.25 / 3}, {"0.25", "past", 3, 0.1}, {"0.01", "exact", 1, 0.01}};
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+    struct gx_case one = case_draft("time.dt=0.1");
+    case_set(&one, GX_TIME_END, rows[i].end);
+    case_set(&one, GX_TIME_LANDING, rows[i].landing);
+    gx_parameter_resolve(one.value);
+    struct gx_plan plan = gx_case_plan(&one);
+    NEAR(plan.steps, rows[i].steps, 0);
+    CLOSE(plan.dt, rows[i].dt, 1e-15);
+  }
+}
+
+/* u_d = A sin(2 pi X_d) cos(phi_d) at the start, phases in multiples of pi. */
+static void phases_are_multiples_of_pi(void **state)
+{
+  (void)state;
+  const double cosine[] = {1, 0.5, -1};
+  struct gx_case one = case_of("problem.name=axis-aligned", "problem.dimension=3", "problem.phases=0 0.333333333333333333 -1",
+                               "mesh.cells=3", "mesh.particles_per_cell=2");
+  struct rig rig;
+  rig_build(&rig, &one, NULL, NULL, NULL);
+  const struct gx_particles *particles = rig.simulation.particles;
+  for (size_t p = 0; p < particles->n; p++)
+    for (int d = 0; d < 3; d++) NEAR(particles->u[d][p], 0.05 * sin(2 * M_PI * particles->X[d][p]) * cosine[d], 1e-15);
+  rig_free(&rig);
+}
+
 int main(void)
 {
   gsl_set_error_handler_off();
@@ -237,6 +272,8 @@ int main(void)
       cmocka_unit_test(histories_are_thinned),
       cmocka_unit_test(time_is_accumulated_as_asked),
       cmocka_unit_test(a_reference_run_has_a_finer_step),
+      cmocka_unit_test(steps_meet_or_pass_the_end),
+      cmocka_unit_test(phases_are_multiples_of_pi),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
