@@ -229,17 +229,20 @@ static void a_reference_run_has_a_finer_step(void **state)
   assert_true(result.reference[GX_DISPLACEMENT][GX_INF] > 1e-9);
 }
 
-/* 1.1/0.1 and 0.3/0.1 miss 11 and 3 by round-off; 0.25/0.1 is 2.5. */
+/* 2.1/0.3 is 7 and a round-off in floating point; 0.75/0.3 is 2.5. */
 static void steps_meet_or_pass_the_end(void **state)
 {
   (void)state;
   static const struct {
     const char *end, *landing;
     double steps, dt;
-  } rows[] = {{"1.1", "exact", 11, 0.1},      {"1.1", "past", 11, 0.1}, {"0.3", "exact", 3, 0.1},
-              {"0.25", "exact", 3, 0.25 / 3}, {"0.25", "past", 3, 0.1}, {"0.01", "exact", 1, 0.01}};
+  } rows[] = {{"2.1", "exact", 7, 0.3},
+              {"2.1", "past", 7, 0.3},
+              {"0.75", "exact", 3, 0.25},
+              {"0.75", "past", 3, 0.3},
+              {"0.03", "exact", 1, 0.03}};
   for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-    struct gx_case one = case_draft("time.dt=0.1");
+    struct gx_case one = case_draft("time.dt=0.3");
     case_set(&one, GX_TIME_END, rows[i].end);
     case_set(&one, GX_TIME_LANDING, rows[i].landing);
     gx_parameter_resolve(one.value);
@@ -264,6 +267,35 @@ static void phases_are_multiples_of_pi(void **state)
   rig_free(&rig);
 }
 
+/* A period is 2/c for the waves that start deformed and the oscillator, 1/c for the bar that starts straight; c = 8. */
+static void periods_are_those_of_the_problem(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *name;
+    double period;
+  } rows[] = {{"bar-neo-hookean", 0.25}, {"axis-aligned", 0.25}, {"oscillator", 0.25}, {"bar-linear", 0.125}};
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+    struct gx_case one = case_draft("problem.modulus=64", "time.periods=3");
+    case_set(&one, GX_PROBLEM_NAME, rows[i].name);
+    gx_parameter_resolve(one.value);
+    CLOSE(gx_case_plan(&one).end, 3 * rows[i].period, 1e-15);
+  }
+}
+
+/* Linear elements with lumped mass: omega = (2 c/h) sin(k h/2), at most 2 c/h; each clock's limit over that is the stable step. */
+static void the_stable_step_is_that_of_the_highest_frequency(void **state)
+{
+  (void)state;
+  for (int k = 0; gx_clock_family[k]; k++) {
+    struct gx_case one = case_draft("problem.name=bar-linear", "problem.modulus=4", "problem.boundary=periodic", "mesh.cells=16",
+                                    "problem.amplitude=0.001", "method.basis=linear", "method.space=moving-mesh");
+    case_set(&one, GX_METHOD_CLOCK, gx_clock_family[k]->name);
+    gx_parameter_resolve(one.value);
+    CLOSE(gx_case_plan(&one).stable_dt, gx_clock_family[k]->stability / (2 * 2 * 16), 0.02);
+  }
+}
+
 int main(void)
 {
   gsl_set_error_handler_off();
@@ -279,6 +311,8 @@ int main(void)
       cmocka_unit_test(a_reference_run_has_a_finer_step),
       cmocka_unit_test(steps_meet_or_pass_the_end),
       cmocka_unit_test(phases_are_multiples_of_pi),
+      cmocka_unit_test(periods_are_those_of_the_problem),
+      cmocka_unit_test(the_stable_step_is_that_of_the_highest_frequency),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
