@@ -3,6 +3,7 @@
 #ifndef GRIDCROSS_COMPARE_H
 #define GRIDCROSS_COMPARE_H
 
+#include <stdbool.h>
 #include <stdio.h>
 
 #include <gridcross/table.h>
@@ -14,6 +15,7 @@ struct gx_comparison {
   const char *rows; /* path; NULL: of mesh.cells, time.dt, time.cfl, method.degree, any: the first that varies */
   size_t columns;
   const char *const *column; /* [columns] paths; none: every axis that is left */
+  bool open;                 /* every other axis follows the columns; else a column that is missing is an error */
   size_t values;
   const char *const *value; /* [values] column names; none: result.displacement.max.rms */
 };

@@ -21,6 +21,10 @@ struct gx_space_options {
   bool particle_motion; /* method.position: particle */
   bool each_step;       /* method.projection: nodal velocity re-projected from particles */
   bool stress_rate;     /* stress integrated by rate, else P(F) */
+  /* collocation */
+  bool reference;         /* method.frame: sites at X, else at x */
+  bool symmetric;         /* method.closure: mirrored at fixed ends, else the papers' */
+  bool papers_divergence; /* method.divergence: the factor F left out, as in the papers */
 };
 
 /* What clocks are made of. */
@@ -57,8 +61,9 @@ struct gx_space_kind {
   const char *name;
   const char *help;
   const char *source;
-  bool fixed_grid; /* particles move through the grid: projection each step by default, crossings counted */
-  bool of_problem; /* the equations of one problem, not a choice of method.space */
+  bool fixed_grid;  /* particles move through the grid: projection each step by default, crossings counted */
+  bool collocation; /* strong form on splines: method.degree, frame, closure, divergence; no basis, mass or transfer */
+  bool of_problem;  /* the equations of one problem, not a choice of method.space */
   /* Builds the space on particles and a posed problem (both borrowed, particles already in their initial state). */
   enum gx_status (*create)(struct gx_space **space, const struct gx_space_options *options, struct gx_particles *particles,
                            const struct gx_posed *posed, struct gx_outcome *outcome);
@@ -90,6 +95,7 @@ struct gx_space {
   struct gx_particles *particles; /* borrowed */
   const struct gx_posed *posed;   /* borrowed */
   struct gx_outcome *outcome;     /* borrowed: filled when a primitive fails */
+  bool through_cells;             /* particles move through the cells of mesh.cells: crossings are counted */
 };
 
 extern const struct gx_space_kind *const gx_space_family[];

@@ -27,6 +27,10 @@ int gx_hdf5_write(const char *path, const struct gx_study *study, const struct g
                   FILE *errors);
 /* /table of a file that gx_hdf5_write wrote, NULL after a message. */
 struct gx_table *gx_hdf5_read(const char *path, FILE *errors);
+/* The study's title, owned by the caller; NULL after a message. */
+char *gx_hdf5_read_title(const char *path, FILE *errors);
+/* Columns time and `name` ("displacement.rms", "energy.kinetic", ...) of a case's history; NULL after a message. */
+struct gx_table *gx_hdf5_read_history(const char *path, const char *id, const char *name, FILE *errors);
 
 /* Makes the directory where needed, and checks that a study may be written there: it is empty or holds a study, and is
  * writable. */
@@ -42,5 +46,8 @@ int gx_store_write(const char *directory, const struct gx_study *study, const st
                    const struct gx_store_run *run, FILE *errors);
 /* The table of a study directory with the timing columns, NULL after a message. */
 struct gx_table *gx_store_read(const char *directory, FILE *errors);
+/* The same as gx_hdf5_read_title and gx_hdf5_read_history, of the study in a directory. */
+char *gx_store_read_title(const char *directory, FILE *errors);
+struct gx_table *gx_store_read_history(const char *directory, const char *id, const char *name, FILE *errors);
 
 #endif

@@ -58,6 +58,7 @@ struct gx_plan {
   double dt, end;            /* s */
   double steps, particles;   /* numbers of them */
   double stable_dt;          /* s; NaN: unknown */
+  double growth;             /* largest real part of the eigenvalues at the start, 1/s; NaN: unknown */
 };
 
 /* Builds the case, so that it can fail for want of memory; once gsl_set_error_handler_off was called. */

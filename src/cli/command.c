@@ -3,6 +3,9 @@
 #include "command.h"
 
 #include <stdlib.h>
+#include <string.h>
+
+#include <gridcross/store.h>
 
 int gx_command_no_memory(void)
 {
@@ -21,4 +24,36 @@ struct gx_study *gx_command_read(const struct gx_options *options)
   struct gx_study *study = gx_runfile_read(options->operand[0], sets, set, stderr);
   free(set);
   return study;
+}
+
+/* The directory as it was named, without .study and slashes at its end; owned by the caller. */
+static char *study_name(const char *directory)
+{
+  size_t length = strlen(directory);
+  while (length > 1 && directory[length - 1] == '/') length--;
+  if (length > 6 && !strncmp(directory + length - 6, ".study", 6) && directory[length - 7] != '/') length -= 6;
+  return strndup(directory, length);
+}
+
+int gx_command_studies_read(struct gx_command_studies *studies, const struct gx_options *options, size_t count)
+{
+  *studies = (struct gx_command_studies){.count = count};
+  studies->table = calloc(count + 1, sizeof *studies->table);
+  studies->name = calloc(count + 1, sizeof *studies->name);
+  if (!studies->table || !studies->name) return gx_command_no_memory();
+  for (size_t s = 0; s < count; s++) {
+    if (!(studies->name[s] = study_name(options->operand[s]))) return gx_command_no_memory();
+    if (!(studies->table[s] = gx_store_read(options->operand[s], stderr))) return GX_EXIT_USAGE;
+  }
+  return GX_EXIT_DONE;
+}
+
+void gx_command_studies_free(struct gx_command_studies *studies)
+{
+  for (size_t s = 0; s < studies->count; s++) {
+    if (studies->table) gx_table_free(studies->table[s]);
+    if (studies->name) free(studies->name[s]);
+  }
+  free(studies->table);
+  free(studies->name);
 }

@@ -7,7 +7,8 @@
 
 #include "options.h"
 
-extern const struct gx_command gx_command_run, gx_command_check, gx_command_init, gx_command_compare, gx_command_list;
+extern const struct gx_command gx_command_run, gx_command_check, gx_command_init, gx_command_compare, gx_command_plot,
+    gx_command_list;
 
 #define GX_COMMAND_SET                                                                                                           \
   {                                                                                                                              \
@@ -16,6 +17,17 @@ extern const struct gx_command gx_command_run, gx_command_check, gx_command_init
 
 /* Reads the run file that the first operand names with its --set. NULL after messages. */
 struct gx_study *gx_command_read(const struct gx_options *options);
+
+/* The studies that the first operands name. */
+struct gx_command_studies {
+  size_t count;
+  struct gx_table **table; /* [count], owned */
+  char **name;             /* [count], owned: as the axis `study` shows them */
+};
+
+/* Returns 0, or an exit code after a message; to be freed in either case. */
+int gx_command_studies_read(struct gx_command_studies *studies, const struct gx_options *options, size_t count);
+void gx_command_studies_free(struct gx_command_studies *studies);
 
 /* Exit code after saying that memory ran out. */
 int gx_command_no_memory(void);

@@ -3,7 +3,6 @@
 #include "command.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include <gridcross/compare.h>
 #include <gridcross/store.h>
@@ -16,15 +15,6 @@ static const struct gx_option option[] = {
     {0, "json", NULL, "the same as JSON"},
     {0},
 };
-
-/* The directory as it was named, without .study and slashes at its end; owned by the caller. */
-static char *study_name(const char *directory)
-{
-  size_t length = strlen(directory);
-  while (length > 1 && directory[length - 1] == '/') length--;
-  if (length > 6 && !strncmp(directory + length - 6, ".study", 6) && directory[length - 7] != '/') length -= 6;
-  return strndup(directory, length);
-}
 
 static int show(const struct gx_options *options, const struct gx_comparison *comparison)
 {
@@ -40,17 +30,13 @@ static int show(const struct gx_options *options, const struct gx_comparison *co
   return GX_EXIT_DONE;
 }
 
-static int compare(const struct gx_options *options, struct gx_table **table, char **name, const char **column,
+static int compare(const struct gx_options *options, const struct gx_command_studies *studies, const char **column,
                    const char **value)
 {
-  for (size_t s = 0; s < options->operands; s++) {
-    if (!(name[s] = study_name(options->operand[s]))) return gx_command_no_memory();
-    if (!(table[s] = gx_store_read(options->operand[s], stderr))) return GX_EXIT_USAGE;
-  }
   const struct gx_comparison comparison = {
-      .studies = options->operands,
-      .table = (const struct gx_table *const *)table,
-      .name = (const char *const *)name,
+      .studies = studies->count,
+      .table = (const struct gx_table *const *)studies->table,
+      .name = (const char *const *)studies->name,
       .rows = gx_options_value(options, "rows"),
       .columns = gx_options_values(options, "columns", column),
       .column = column,
@@ -66,16 +52,14 @@ static int run(const struct gx_options *options)
     fputs("gridcross compare: --csv or --json, not both\n", stderr);
     return GX_EXIT_USAGE;
   }
-  struct gx_table **table = calloc(options->operands + 1, sizeof *table);
-  char **name = calloc(options->operands + 1, sizeof *name);
+  struct gx_command_studies studies;
+  int code = gx_command_studies_read(&studies, options, options->operands);
   const char **column = calloc(options->count + 1, sizeof *column), **value = calloc(options->count + 1, sizeof *value);
-  int code = table && name && column && value ? compare(options, table, name, column, value) : gx_command_no_memory();
-  for (size_t s = 0; s < options->operands; s++) {
-    if (table) gx_table_free(table[s]);
-    if (name) free(name[s]);
-  }
-  free(table);
-  free(name);
+  if (!column || !value)
+    code = gx_command_no_memory();
+  else if (!code)
+    code = compare(options, &studies, column, value);
+  gx_command_studies_free(&studies);
   free(column);
   free(value);
   return code;

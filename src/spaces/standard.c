@@ -26,6 +26,7 @@ static enum gx_status create(struct gx_space **space, const struct gx_space_opti
   struct gx_mesh *mesh = NULL;
   GX_TRY(gx_mesh_create(&mesh, sizeof *mesh, &gx_standard, options, particles, posed, outcome));
   *space = &mesh->space;
+  (*space)->through_cells = true;
   posed->problem->material->piola(&posed->options.moduli, particles->dim, particles->n, particles->F, particles->P);
   GX_TRY(weights(*space));
   return gx_mesh_assemble(mesh, particles->v, mesh->v);

@@ -12,7 +12,9 @@
 
 #include <gridcross/build.h>
 
-enum { FORMAT = 1 };
+#include "../core/nearest.h"
+
+enum { FORMAT = 1, NAME = 256 };
 
 static const int64_t null_integer = INT64_MIN;
 
@@ -265,16 +267,22 @@ static int get_column(hid_t dataset, const char *name, struct gx_table *table, s
   return failed;
 }
 
+/* Name of a group's member in the order in which they were made; false: there is none. */
+static bool member_name(hid_t group, hsize_t i, char name[NAME])
+{
+  return H5Lget_name_by_idx(group, ".", H5_INDEX_CRT_ORDER, H5_ITER_INC, i, name, NAME, H5P_DEFAULT) > 0;
+}
+
 static struct gx_table *get_table(hid_t group)
 {
   struct gx_table *table = NULL;
   H5G_info_t info;
   if (H5Gget_info(group, &info) < 0 || info.nlinks == 0) return NULL;
   for (hsize_t c = 0; c < info.nlinks; c++) {
-    char name[256];
+    char name[NAME];
     enum gx_type type;
     int failed = -1;
-    if (H5Lget_name_by_idx(group, ".", H5_INDEX_CRT_ORDER, H5_ITER_INC, c, name, sizeof name, H5P_DEFAULT) > 0) {
+    if (member_name(group, c, name)) {
       hid_t dataset = H5Dopen2(group, name, H5P_DEFAULT);
       hssize_t rows = dataset < 0 ? -1 : column_shape(dataset, &type);
       if (!table && rows >= 0) table = gx_table_create(info.nlinks, (size_t)rows);
@@ -294,37 +302,102 @@ static hid_t open_group(hid_t file, const char *name)
   return H5Lexists(file, name, H5P_DEFAULT) > 0 ? H5Gopen2(file, name, H5P_DEFAULT) : -1;
 }
 
-static struct gx_table *read_file(hid_t file, const char *path, FILE *errors)
+/* A study file of our format, or -1 after a message. */
+static hid_t open_study(const char *path, FILE *errors)
 {
-  struct gx_table *table = NULL;
   int64_t format = 0;
-  hid_t provenance = open_group(file, "provenance"), group = open_group(file, "table");
-  if (provenance < 0 || group < 0 || get_integer(provenance, "format", &format))
+  FILE *probe = fopen(path, "rb");
+  if (!probe) {
+    fprintf(errors, "%s: %s\n", path, strerror(errno));
+    return -1;
+  }
+  fclose(probe);
+  hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file < 0) {
+    fprintf(errors, "%s: is damaged or not an HDF5 file\n", path);
+    return -1;
+  }
+  hid_t provenance = open_group(file, "provenance"), table = open_group(file, "table");
+  bool ours = provenance >= 0 && table >= 0 && !get_integer(provenance, "format", &format);
+  if (!ours)
     fprintf(errors, "%s: is not a study that gridcross wrote\n", path);
   else if (format != FORMAT)
     fprintf(errors, "%s: has format %lld; this gridcross reads format %d\n", path, (long long)format, FORMAT);
-  else if (!(table = get_table(group)))
-    fprintf(errors, "%s: its table is damaged\n", path);
-  if (group >= 0) H5Gclose(group);
+  if (table >= 0) H5Gclose(table);
   if (provenance >= 0) H5Gclose(provenance);
-  return table;
+  if (ours && format == FORMAT) return file;
+  H5Fclose(file);
+  return -1;
 }
 
 struct gx_table *gx_hdf5_read(const char *path, FILE *errors)
 {
-  FILE *probe = fopen(path, "rb");
-  if (!probe) {
-    fprintf(errors, "%s: %s\n", path, strerror(errno));
-    return NULL;
-  }
-  fclose(probe);
   struct silence old = silence_begin();
   struct gx_table *table = NULL;
-  hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (file < 0)
-    fprintf(errors, "%s: is damaged or not an HDF5 file\n", path);
-  else
-    table = read_file(file, path, errors);
+  hid_t file = open_study(path, errors), group = file < 0 ? -1 : open_group(file, "table");
+  if (group >= 0 && !(table = get_table(group))) fprintf(errors, "%s: its table is damaged\n", path);
+  if (group >= 0) H5Gclose(group);
+  if (file >= 0) H5Fclose(file);
+  silence_end(old);
+  return table;
+}
+
+char *gx_hdf5_read_title(const char *path, FILE *errors)
+{
+  struct silence old = silence_begin();
+  char *title = NULL;
+  hid_t file = open_study(path, errors), provenance = file < 0 ? -1 : open_group(file, "provenance");
+  if (provenance >= 0 && !(title = get_text(provenance, "title"))) fprintf(errors, "%s: its title is damaged\n", path);
+  if (provenance >= 0) H5Gclose(provenance);
+  if (file >= 0) H5Fclose(file);
+  silence_end(old);
+  return title;
+}
+
+static void name_histories(hid_t group, const char *wanted, FILE *errors)
+{
+  struct gx_nearest near = {.word = wanted};
+  const char *gap = "; there are: ";
+  char name[NAME];
+  for (hsize_t i = 0; member_name(group, i, name); i++) gx_nearest_try(&near, name);
+  fprintf(errors, "gridcross: no history '%s'", wanted);
+  if (*near.best) fprintf(errors, ": did you mean %s?", near.best);
+  for (hsize_t i = 0; member_name(group, i, name); i++, gap = ", ") fprintf(errors, "%s%s", gap, name);
+  putc('\n', errors);
+}
+
+static struct gx_table *get_history(hid_t group, const char *name)
+{
+  const char *const column[] = {"time", name};
+  struct gx_table *table = NULL;
+  int failed = 0;
+  for (size_t c = 0; c < 2 && !failed; c++) {
+    enum gx_type type;
+    hid_t dataset = H5Dopen2(group, column[c], H5P_DEFAULT);
+    hssize_t rows = dataset < 0 ? -1 : column_shape(dataset, &type);
+    if (!table && rows >= 0) table = gx_table_create(2, (size_t)rows);
+    failed = !table || rows < 0 || get_column(dataset, column[c], table, c);
+    if (dataset >= 0) H5Dclose(dataset);
+  }
+  if (!failed) return table;
+  gx_table_free(table);
+  return NULL;
+}
+
+struct gx_table *gx_hdf5_read_history(const char *path, const char *id, const char *name, FILE *errors)
+{
+  struct silence old = silence_begin();
+  struct gx_table *table = NULL;
+  hid_t file = open_study(path, errors), histories = file < 0 ? -1 : open_group(file, "histories");
+  hid_t group = histories < 0 ? -1 : open_group(histories, id);
+  if (file >= 0 && group < 0)
+    fprintf(errors, "%s: has no history of case %s: set output.histories in its run file, and run that again\n", path, id);
+  else if (file >= 0 && (!*name || strchr(name, '/') || H5Lexists(group, name, H5P_DEFAULT) <= 0))
+    name_histories(group, name, errors);
+  else if (file >= 0 && !(table = get_history(group, name)))
+    fprintf(errors, "%s: the history of case %s is damaged\n", path, id);
+  if (group >= 0) H5Gclose(group);
+  if (histories >= 0) H5Gclose(histories);
   if (file >= 0) H5Fclose(file);
   silence_end(old);
   return table;

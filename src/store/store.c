@@ -270,3 +270,20 @@ struct gx_table *gx_store_read(const char *directory, FILE *errors)
   free(timing);
   return table;
 }
+
+char *gx_store_read_title(const char *directory, FILE *errors)
+{
+  char *study = path_in(directory, "", names[STUDY], ""), *title = study ? gx_hdf5_read_title(study, errors) : NULL;
+  if (!study) say(errors, NULL);
+  free(study);
+  return title;
+}
+
+struct gx_table *gx_store_read_history(const char *directory, const char *id, const char *name, FILE *errors)
+{
+  char *study = path_in(directory, "", names[STUDY], "");
+  struct gx_table *history = study ? gx_hdf5_read_history(study, id, name, errors) : NULL;
+  if (!study) say(errors, NULL);
+  free(study);
+  return history;
+}

@@ -50,7 +50,7 @@ static enum gx_status prepare(struct run *run, const struct gx_case *one, double
   run->level = level_of(one);
   run->history_every = (double)one->value[GX_OUTPUT_HISTORIES].integer;
   run->accumulate = one->value[GX_TIME_ACCUMULATE].text;
-  const int *cells = simulation->kind->fixed_grid ? simulation->space_options.cells : NULL;
+  const int *cells = simulation->space->through_cells ? simulation->space_options.cells : NULL;
   run->measure = gx_measure_create(simulation->space, simulation->clock, cells, run->level);
   if (!run->measure) return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the measures");
   struct gx_work_observer observer = gx_measure_work(run->measure);
@@ -182,11 +182,13 @@ void gx_case_free(struct gx_result *result)
 
 struct gx_plan gx_case_plan(const struct gx_case *one)
 {
-  struct gx_plan plan = {.outcome = {.status = GX_OK, .particle = -1}, .stable_dt = NAN};
+  struct gx_plan plan = {.outcome = {.status = GX_OK, .particle = -1}, .stable_dt = NAN, .growth = NAN};
   struct gx_simulation simulation;
   if (gx_simulation_plan(&simulation, one, &plan.outcome) == GX_OK && gx_simulation_build(&simulation, &plan.outcome) == GX_OK) {
     plan.particles = (double)simulation.particles->n;
     plan.stable_dt = stable_dt(&simulation);
+    if (!simulation.space->through_cells)
+      plan.growth = gx_stability_growth(simulation.space); /* else it sees the flow's own stretching */
   }
   plan.dt = simulation.dt;
   plan.end = simulation.end;

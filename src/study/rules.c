@@ -58,6 +58,9 @@ CHOICE(gx_rules_transfer_choice, "flip", "pic")
 CHOICE(gx_rules_position_choice, "nodal", "particle")
 CHOICE(gx_rules_projection_choice, "each-step", "once")
 CHOICE(gx_rules_stress_choice, "F", "rate")
+CHOICE(gx_rules_frame_choice, "current", "reference")
+CHOICE(gx_rules_closure_choice, "papers", "symmetric")
+CHOICE(gx_rules_divergence_choice, "exact", "papers")
 CHOICE(gx_rules_landing_choice, "exact", "past")
 CHOICE(gx_rules_accumulate_choice, "product", "sum", "compensated")
 CHOICE(gx_rules_measures_choice, "final", "max", "all")
@@ -72,6 +75,27 @@ bool gx_rules_is_continuum(const struct gx_value *value)
 static const struct gx_space_kind *space_of(const struct gx_value *value)
 {
   return value[GX_METHOD_SPACE].type == GX_TEXT ? gx_space_find(value[GX_METHOD_SPACE].text) : NULL;
+}
+
+bool gx_rules_is_collocation(const struct gx_value *value)
+{
+  const struct gx_space_kind *space = space_of(value);
+  return gx_rules_is_continuum(value) && space && space->collocation;
+}
+
+bool gx_rules_is_galerkin(const struct gx_value *value)
+{
+  return gx_rules_is_continuum(value) && !gx_rules_is_collocation(value);
+}
+
+bool gx_rules_closure_applies(const struct gx_value *value)
+{
+  return gx_rules_is_collocation(value) && is_text(value[GX_PROBLEM_BOUNDARY], "fixed");
+}
+
+bool gx_rules_divergence_applies(const struct gx_value *value)
+{
+  return gx_rules_is_collocation(value) && is_text(value[GX_METHOD_FRAME], "current");
 }
 
 bool gx_rules_interpolation_error_applies(const struct gx_value *value)
@@ -96,6 +120,7 @@ bool gx_rules_directions_apply(const struct gx_value *value)
 
 bool gx_rules_degree_applies(const struct gx_value *value)
 {
+  if (gx_rules_is_collocation(value)) return true;
   return value[GX_METHOD_BASIS].type == GX_TEXT && gx_basis_find(value[GX_METHOD_BASIS].text)->has_degree;
 }
 
@@ -103,7 +128,7 @@ bool gx_rules_degree_applies(const struct gx_value *value)
 bool gx_rules_particles_move(const struct gx_value *value)
 {
   const struct gx_space_kind *space = space_of(value);
-  return space && (space->fixed_grid || !is_text(value[GX_METHOD_PROJECTION], "once"));
+  return space && !space->collocation && (space->fixed_grid || !is_text(value[GX_METHOD_PROJECTION], "once"));
 }
 
 bool gx_rules_flip_applies(const struct gx_value *value)
@@ -138,6 +163,16 @@ struct gx_value gx_rules_phases_default(const struct gx_value *value)
 {
   static const char *const zeros[] = {"0", "0 0", "0 0 0"};
   return text_value(zeros[value[GX_PROBLEM_DIMENSION].integer - 1]);
+}
+
+struct gx_value gx_rules_degree_default(const struct gx_value *value)
+{
+  return (struct gx_value){.type = GX_INTEGER, .integer = gx_rules_is_collocation(value) ? 5 : 2};
+}
+
+struct gx_value gx_rules_closure_default(const struct gx_value *value)
+{
+  return text_value(is_text(value[GX_METHOD_FRAME], "reference") ? "symmetric" : "papers");
 }
 
 /* Without cells there is no CFL number. */

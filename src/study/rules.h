@@ -17,12 +17,19 @@ const char *gx_rules_transfer_choice(int i);
 const char *gx_rules_position_choice(int i);
 const char *gx_rules_projection_choice(int i);
 const char *gx_rules_stress_choice(int i);
+const char *gx_rules_frame_choice(int i);
+const char *gx_rules_closure_choice(int i);
+const char *gx_rules_divergence_choice(int i);
 const char *gx_rules_landing_choice(int i);
 const char *gx_rules_accumulate_choice(int i);
 const char *gx_rules_measures_choice(int i);
 
 /* Whether a parameter applies to a case. value: [GX_PARAMETERS]. */
 bool gx_rules_is_continuum(const struct gx_value *value);
+bool gx_rules_is_collocation(const struct gx_value *value);
+bool gx_rules_is_galerkin(const struct gx_value *value);
+bool gx_rules_closure_applies(const struct gx_value *value);
+bool gx_rules_divergence_applies(const struct gx_value *value);
 bool gx_rules_interpolation_error_applies(const struct gx_value *value);
 bool gx_rules_poisson_applies(const struct gx_value *value);
 bool gx_rules_mode_applies(const struct gx_value *value);
@@ -37,6 +44,8 @@ bool gx_rules_periods_applies(const struct gx_value *value);
 struct gx_value gx_rules_boundary_default(const struct gx_value *value);
 struct gx_value gx_rules_active_default(const struct gx_value *value);
 struct gx_value gx_rules_phases_default(const struct gx_value *value);
+struct gx_value gx_rules_degree_default(const struct gx_value *value);
+struct gx_value gx_rules_closure_default(const struct gx_value *value);
 struct gx_value gx_rules_dt_default(const struct gx_value *value);
 struct gx_value gx_rules_projection_default(const struct gx_value *value);
 

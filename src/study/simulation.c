@@ -51,7 +51,8 @@ static void read_method(struct gx_simulation *simulation, const struct gx_case *
   simulation->per_cell = (int)integer(one, GX_MESH_PARTICLES_PER_CELL, 1);
   for (int d = 0; d < GX_MAX_DIM; d++) options->cells[d] = (int)integer(one, GX_MESH_CELLS, 1);
   options->periodic = is(one, GX_PROBLEM_BOUNDARY, "periodic");
-  options->basis = own ? NULL : gx_basis_find(one->value[GX_METHOD_BASIS].text);
+  const struct gx_value *basis = &one->value[GX_METHOD_BASIS];
+  options->basis = basis->type == GX_TEXT ? gx_basis_find(basis->text) : NULL;
   options->degree = (int)integer(one, GX_METHOD_DEGREE, 1);
   options->consistent = is(one, GX_METHOD_MASS, "consistent");
   options->pic = is(one, GX_METHOD_TRANSFER, "pic");
@@ -59,6 +60,9 @@ static void read_method(struct gx_simulation *simulation, const struct gx_case *
   options->particle_motion = is(one, GX_METHOD_POSITION, "particle");
   options->each_step = is(one, GX_METHOD_PROJECTION, "each-step");
   options->stress_rate = is(one, GX_METHOD_STRESS, "rate");
+  options->reference = is(one, GX_METHOD_FRAME, "reference");
+  options->symmetric = is(one, GX_METHOD_CLOSURE, "symmetric");
+  options->papers_divergence = is(one, GX_METHOD_DIVERGENCE, "papers");
 }
 
 /* Whether a step takes nodal velocity, which belongs to its first weights, to particles by those of another position. */
@@ -79,7 +83,7 @@ static enum gx_status refuse(const struct gx_simulation *simulation, struct gx_o
     return gx_status_set(outcome, GX_REFUSED, -1,
                          "the exact solution itself tangles: its least F is %.4g; amplitude must stay below %.6g", 1 - slope,
                          1 / (2 * M_PI * problem->mode));
-  if (options->basis->deforms && !simulation->kind->fixed_grid)
+  if (options->basis && options->basis->deforms && !simulation->kind->fixed_grid)
     return gx_status_set(outcome, GX_REFUSED, -1,
                          "%s has no meaning in the reference configuration, where domains keep their width: use ugimp",
                          options->basis->name);

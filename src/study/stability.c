@@ -8,6 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <gsl/gsl_eigen.h>
+#include <gsl/gsl_errno.h>
+
 enum { LEAST_ITERATIONS = 10, MOST_ITERATIONS = 100 };
 static const double settled = 1e-3; /* relative change that ends the iteration */
 
@@ -73,7 +76,7 @@ static double iterate(struct iteration *it)
   return omega;
 }
 
-double gx_stability_frequency(struct gx_space *space)
+static double with_state(struct gx_space *space, double (*compute)(struct iteration *))
 {
   struct iteration it = {.space = space};
   space->kind->state(space, &it.state);
@@ -87,8 +90,46 @@ double gx_stability_frequency(struct gx_space *space)
   double *at = it.start;
   for (int i = 0; i < it.state.count; at += it.state.length[i], i++)
     memcpy(at, it.state.array[i], it.state.length[i] * sizeof(double));
-  double omega = iterate(&it);
+  double result = compute(&it);
   load(&it, it.start, it.start, 0);
   free(block);
-  return omega;
+  return result;
+}
+
+double gx_stability_frequency(struct gx_space *space)
+{
+  return with_state(space, iterate);
+}
+
+/* The whole Jacobian by columns, and its eigenvalues. */
+static double largest_real_part(struct iteration *it)
+{
+  enum { MOST = 200 };
+  size_t n = it->total;
+  if (n > MOST) return NAN;
+  gsl_matrix *jacobian = gsl_matrix_alloc(n, n);
+  gsl_vector_complex *eigenvalue = gsl_vector_complex_alloc(n);
+  gsl_eigen_nonsymm_workspace *workspace = gsl_eigen_nonsymm_alloc(n);
+  double largest = NAN;
+  load(it, it->start, it->start, 0);
+  bool failed = !jacobian || !eigenvalue || !workspace || evaluate(it, it->rest);
+  for (size_t j = 0; j < n && !failed; j++) {
+    memset(it->vector, 0, n * sizeof(double));
+    it->vector[j] = 1;
+    failed = apply(it);
+    for (size_t i = 0; i < n && !failed; i++) gsl_matrix_set(jacobian, i, j, it->vector[i]);
+  }
+  if (!failed && gsl_eigen_nonsymm(jacobian, eigenvalue, workspace) == GSL_SUCCESS) {
+    largest = -INFINITY;
+    for (size_t i = 0; i < n; i++) largest = fmax(largest, GSL_REAL(gsl_vector_complex_get(eigenvalue, i)));
+  }
+  if (workspace) gsl_eigen_nonsymm_free(workspace);
+  gsl_vector_complex_free(eigenvalue);
+  gsl_matrix_free(jacobian);
+  return largest;
+}
+
+double gx_stability_growth(struct gx_space *space)
+{
+  return with_state(space, largest_real_part);
 }

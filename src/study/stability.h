@@ -9,4 +9,8 @@
  * fails. From below: usually within a per cent. The state is restored, weights and forces are not. */
 double gx_stability_frequency(struct gx_space *space);
 
+/* Largest real part of the eigenvalues of the same linearisation, 1/s: how fast the space itself grows, whatever the clock. NaN
+ * when the state has over 200 numbers, memory runs out or the rates fail. The state is restored. */
+double gx_stability_growth(struct gx_space *space);
+
 #endif

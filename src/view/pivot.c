@@ -21,7 +21,7 @@ static const char *const preferred_rows[] = {"mesh.cells", "time.dt", "time.cfl"
 
 static int no_memory(FILE *errors)
 {
-  fputs("compare: out of memory\n", errors);
+  fputs("gridcross: out of memory\n", errors);
   return -1;
 }
 
@@ -108,7 +108,7 @@ static long find(const struct gx_table *table, const char *name, bool parameter,
 {
   long c = gx_table_find(table, name);
   if (c >= 0 && (!parameter || gx_axes_parameter(table, (size_t)c))) return c;
-  fprintf(errors, "compare: no %s '%s'", parameter ? "parameter" : "column", name);
+  fprintf(errors, "gridcross: no %s '%s'", parameter ? "parameter" : "column", name);
   name_candidates(table, name, parameter, errors);
   putc('\n', errors);
   return -1;
@@ -145,9 +145,9 @@ static int fill_axes(struct gx_pivot *pivot, const struct gx_comparison *compari
   long count = gx_axes_find(pivot->table, pivot->axes + 1, all);
   int failed = count < 0 ? no_memory(errors) : 0;
   size_t known = pivot->axes + 1;
-  if (!failed && comparison->columns && (size_t)count > known) {
+  if (!failed && comparison->columns && !comparison->open && (size_t)count > known) {
     const char *left = pivot->table->column[all[known]].name;
-    fprintf(errors, "compare: %s varies too: add --columns %s, or leave out --columns\n", left, left);
+    fprintf(errors, "gridcross: %s varies too: add --columns %s, or leave out --columns\n", left, left);
     failed = -1;
   }
   for (size_t i = known; !failed && i < (size_t)count; i++) pivot->axis[pivot->axes++] = all[i];
@@ -166,7 +166,7 @@ static int choose_axes(struct gx_pivot *pivot, const struct gx_comparison *compa
   if (rows < 0) return -1;
   pivot->row_axis = (size_t)rows;
   if (among(pivot->row_axis, pivot->axes, pivot->axis)) {
-    fprintf(errors, "compare: %s cannot be both rows and columns\n", pivot->table->column[rows].name);
+    fprintf(errors, "gridcross: %s cannot be both rows and columns\n", pivot->table->column[rows].name);
     return -1;
   }
   return fill_axes(pivot, comparison, errors);
@@ -218,7 +218,7 @@ static int place(struct gx_pivot *pivot, size_t *scratch, FILE *errors)
     pivot->column_sample[column[r]] = r;
     long *cell = &pivot->cell[row[r] * pivot->columns + column[r]];
     if (*cell >= 0) {
-      fputs("compare: a case is there twice: was a study named twice?\n", errors);
+      fputs("gridcross: a case is there twice: was a study named twice?\n", errors);
       return -1;
     }
     *cell = (long)r;
@@ -258,6 +258,20 @@ void gx_pivot_free(struct gx_pivot *pivot)
   free(pivot);
 }
 
+const char *gx_pivot_label(const struct gx_pivot *pivot, size_t column, size_t row, char text[GX_PIVOT_LABEL])
+{
+  char buffer[GX_NUMBER_LENGTH];
+  const char *name = pivot->table->column[column].name;
+  struct gx_value value = gx_table_get(pivot->table, row, column);
+  if (value.type == GX_NULL)
+    text[0] = '\0';
+  else if (value.type == GX_TEXT)
+    snprintf(text, GX_PIVOT_LABEL, "%s", value.text);
+  else
+    snprintf(text, GX_PIVOT_LABEL, "%s %s", gx_sheet_leaf(name), gx_sheet_text(name, value, buffer));
+  return text;
+}
+
 bool gx_pivot_ok(const struct gx_pivot *pivot, long table_row)
 {
   long c = gx_table_find(pivot->table, "result.status");
@@ -274,9 +288,9 @@ bool gx_pivot_ordered(const struct gx_pivot *pivot, size_t v)
   return false;
 }
 
-static double number(const struct gx_table *table, long row, size_t column)
+double gx_pivot_number(const struct gx_pivot *pivot, long table_row, size_t column)
 {
-  struct gx_value value = gx_table_get(table, (size_t)row, column);
+  struct gx_value value = gx_table_get(pivot->table, (size_t)table_row, column);
   return value.type == GX_REAL ? value.real : value.type == GX_INTEGER ? (double)value.integer : NAN;
 }
 
@@ -285,8 +299,8 @@ double gx_pivot_order(const struct gx_pivot *pivot, size_t v, size_t row, size_t
   long here = pivot->cell[row * pivot->columns + column], above = -1;
   while (above < 0 && row > 0) above = pivot->cell[--row * pivot->columns + column];
   if (!gx_pivot_ordered(pivot, v) || !gx_pivot_ok(pivot, here) || !gx_pivot_ok(pivot, above)) return NAN;
-  double e1 = number(pivot->table, above, pivot->value[v]), e2 = number(pivot->table, here, pivot->value[v]);
-  double h1 = number(pivot->table, above, pivot->row_axis), h2 = number(pivot->table, here, pivot->row_axis);
+  double e1 = gx_pivot_number(pivot, above, pivot->value[v]), e2 = gx_pivot_number(pivot, here, pivot->value[v]);
+  double h1 = gx_pivot_number(pivot, above, pivot->row_axis), h2 = gx_pivot_number(pivot, here, pivot->row_axis);
   if (!(e1 > 0 && e2 > 0 && h1 > 0 && h2 > 0)) return NAN;
   double order = log(e1 / e2) / log(h1 / h2);
   return descends(pivot) ? order : -order;

@@ -12,7 +12,7 @@ import tempfile
 import unittest
 
 PROGRAM, ROOT = (pathlib.Path(a).resolve() for a in sys.argv[1:3])
-COMMANDS = ["run", "check", "init", "compare", "list"]
+COMMANDS = ["run", "check", "init", "compare", "plot", "list"]
 TOPICS = ["spaces", "bases", "clocks", "problems", "materials", "parameters"]
 STUDY = """title: small
 problem: {name: bar-neo-hookean}

@@ -71,7 +71,7 @@ static void each_combination(void (*check)(const struct combination *combination
   struct combination c;
   int ran = 0;
   for (int s = 0; (c.kind = gx_space_family[s]); s++) {
-    if (c.kind->of_problem) continue;
+    if (c.kind->of_problem || c.kind->collocation) continue; /* no transfers: nothing of a basis or a mass to keep */
     for (int b = 0; (c.basis = gx_basis_family[b]); b++)
       for (int k = 0; (c.clock = gx_clock_family[k]); k++)
         for (int mass = 0; mass < 2; mass++)

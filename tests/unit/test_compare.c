@@ -187,19 +187,19 @@ static void wrong_names_are_answered(void **state)
   const char *const name[] = {"s"}, *const cells[] = {"mesh.cells"}, *const crossing[] = {"result.crosings"};
   struct gx_comparison all = {.studies = 1, .table = tables, .name = name}, one = all;
   one.rows = "cells";
-  expect_error(one, "compare: no parameter 'cells': did you mean mesh.cells?; what varies here: mesh.cells, method.space, "
+  expect_error(one, "gridcross: no parameter 'cells': did you mean mesh.cells?; what varies here: mesh.cells, method.space, "
                     "method.projection\n");
   one = all;
   one.rows = "time.dt";
   one.columns = 1;
   one.column = cells;
-  expect_error(one, "compare: method.space varies too: add --columns method.space, or leave out --columns\n");
+  expect_error(one, "gridcross: method.space varies too: add --columns method.space, or leave out --columns\n");
   one.rows = "mesh.cells";
-  expect_error(one, "compare: mesh.cells cannot be both rows and columns\n");
+  expect_error(one, "gridcross: mesh.cells cannot be both rows and columns\n");
   one = all;
   one.values = 1;
   one.value = crossing;
-  expect_error(one, "compare: no column 'result.crosings': did you mean result.crossings?\n");
+  expect_error(one, "gridcross: no column 'result.crosings': did you mean result.crossings?\n");
   gx_table_free(table);
 }
 

@@ -5,11 +5,12 @@ import subprocess
 import sys
 
 root, compiler = pathlib.Path(sys.argv[1]), sys.argv[2:]
-headers = sorted((root / "include" / "gridcross").glob("*.h"))
-flags = ["-std=c17", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fsyntax-only", "-I", str(root / "include"), "-xc", "-"]
+includes = [root / "include", root / "splines" / "include"]
+headers = sorted(path for include in includes for path in include.rglob("*.h"))
+flags = ["-std=c17", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fsyntax-only", *(f"-I{i}" for i in includes), "-xc", "-"]
 bad = 0
 for header in headers:
-    source = f"#include <gridcross/{header.name}>\n" * 2 + "extern int gx_alone;\n"
+    source = f"#include <{next(header.relative_to(i) for i in includes if i in header.parents)}>\n" * 2 + "extern int gx_alone;\n"
     done = subprocess.run(compiler + flags, input=source, text=True, capture_output=True)
     if done.returncode:
         bad += 1

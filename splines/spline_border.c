@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cyclic banded systems by a border of the band. */
+#include "spline_border.h"
+
+#include <float.h>
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct gx_spline_border {
+  size_t rows, width;
+  double *tail;  /* [width][2 degree + 1], rows of [W C], columns wrapping */
+  double *right; /* [rows - width][width], B^-1 V */
+  double schur[GX_SPLINE_MAX_DEGREE * GX_SPLINE_MAX_DEGREE], tau[GX_SPLINE_MAX_DEGREE];
+};
+
+struct gx_spline_border *gx_spline_border_create(int degree, size_t rows)
+{
+  const size_t p = (size_t)degree;
+  struct gx_spline_border *border = calloc(1, sizeof *border);
+  double *memory = calloc(p * (2 * p + 1) + rows * p, sizeof *memory);
+  if (!border || !memory) {
+    free(border);
+    free(memory);
+    return NULL;
+  }
+  border->rows = rows;
+  border->tail = memory;
+  border->right = memory + p * (2 * p + 1);
+  return border;
+}
+
+void gx_spline_border_free(struct gx_spline_border *border)
+{
+  if (!border) return;
+  free(border->tail);
+  free(border);
+}
+
+static size_t column(const struct gx_spline_border *border, size_t row, int offset)
+{
+  return (row + border->rows + (size_t)(ptrdiff_t)offset) % border->rows;
+}
+
+static struct gx_spline_band inner(const struct gx_spline_border *border, const struct gx_spline_band *band)
+{
+  struct gx_spline_band B = *band;
+  B.rows = border->rows - border->width;
+  return B;
+}
+
+/* V into right; B keeps what lies in it. */
+static void cut_columns(struct gx_spline_border *border, const struct gx_spline_band *band)
+{
+  const size_t w = border->width, m = border->rows - w, stride = 2 * (size_t)band->degree + 1;
+  memset(border->right, 0, m * w * sizeof *border->right);
+  for (size_t i = 0; i < m; i++) {
+    if (i >= (size_t)band->lower && i + (size_t)band->upper < m) continue;
+    double *row = band->entry + i * stride + band->degree;
+    for (int d = -band->lower; d <= band->upper; d++) {
+      size_t j = column(border, i, d);
+      if (j < m && (ptrdiff_t)j - (ptrdiff_t)i == d) continue;
+      if (j >= m) border->right[i * w + j - m] += row[d];
+      row[d] = 0;
+    }
+  }
+}
+
+long gx_spline_border_factor(struct gx_spline_border *border, const struct gx_spline_band *band)
+{
+  const size_t stride = 2 * (size_t)band->degree + 1;
+  const size_t w = border->width = (size_t)(band->lower > band->upper ? band->lower : band->upper), m = border->rows - w;
+  memcpy(border->tail, band->entry + m * stride, w * stride * sizeof *border->tail);
+  cut_columns(border, band);
+  const struct gx_spline_band B = inner(border, band);
+  long fault = gx_spline_band_factor(&B);
+  if (fault >= 0 || !w) return fault;
+  gx_spline_band_solve_many(&B, w, border->right, border->right);
+  memset(border->schur, 0, sizeof border->schur);
+  for (size_t r = 0; r < w; r++) {
+    const double *row = border->tail + r * stride + band->degree;
+    double *sum = border->schur + r * w;
+    for (int d = -band->lower; d <= band->upper; d++) {
+      size_t j = column(border, m + r, d);
+      if (j >= m)
+        sum[j - m] += row[d];
+      else
+        for (size_t c = 0; c < w; c++) sum[c] -= row[d] * border->right[j * w + c];
+    }
+  }
+  gsl_matrix_view S = gsl_matrix_view_array(border->schur, w, w);
+  gsl_vector_view tau = gsl_vector_view_array(border->tau, w);
+  gsl_linalg_QR_decomp(&S.matrix, &tau.vector);
+  for (size_t r = 0; r < w; r++)
+    if (!(fabs(border->schur[r * w + r]) > DBL_EPSILON)) return (long)(m + r);
+  return -1;
+}
+
+void gx_spline_border_solve(const struct gx_spline_border *border, const struct gx_spline_band *band, size_t count,
+                            const double *b, double *x)
+{
+  const size_t w = border->width, m = border->rows - w, stride = 2 * (size_t)band->degree + 1;
+  const struct gx_spline_band B = inner(border, band);
+  if (count == 1)
+    gx_spline_band_solve(&B, b, x);
+  else
+    gx_spline_band_solve_many(&B, count, b, x);
+  if (!w) return;
+  gsl_matrix_const_view S = gsl_matrix_const_view_array(border->schur, w, w);
+  gsl_vector_const_view tau = gsl_vector_const_view_array(border->tau, w);
+  for (size_t s = 0; s < count; s++) {
+    double end[GX_SPLINE_MAX_DEGREE];
+    for (size_t r = 0; r < w; r++) {
+      const double *row = border->tail + r * stride + band->degree;
+      end[r] = b[(m + r) * count + s];
+      for (int d = -band->lower; d <= band->upper; d++) {
+        size_t j = column(border, m + r, d);
+        if (j < m) end[r] -= row[d] * x[j * count + s];
+      }
+    }
+    gsl_vector_view e = gsl_vector_view_array(end, w);
+    gsl_linalg_QR_svx(&S.matrix, &tau.vector, &e.vector);
+    for (size_t r = 0; r < w; r++) x[(m + r) * count + s] = end[r];
+  }
+  for (size_t i = 0; i < m; i++)
+    for (size_t r = 0; r < w; r++)
+      for (size_t s = 0; s < count; s++) x[i * count + s] -= border->right[i * w + r] * x[(m + r) * count + s];
+}

@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* gridcross plot: figures of studies. */
+#include "command.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include <gridcross/plot.h>
+#include <gridcross/store.h>
+
+#include "../core/nearest.h"
+
+static const struct gx_option option[] = {
+    {'o', "output", "FIGURE", "the figure, ending in .svg, .png or .pdf; FIGURE.gp and FIGURE.csv stay beside it"},
+    {0, "x", "COLUMN", "lines: parameter or result across; default: mesh.cells where it varies, else time.dt, time.cfl, ..."},
+    {0, "y", "COLUMN", "lines: result.displacement.max.rms, ...; history: displacement.rms, energy.kinetic, ..."},
+    {0, "by", "PATH", "one line a value, shown by its colour; as often as wanted; the other axes follow in the legend"},
+    {0},
+};
+
+static const struct kind {
+  const char *name;
+  enum gx_plot_status (*draw)(const struct gx_plot *plot, FILE *errors);
+} kinds[] = {{"lines", gx_plot_lines}, {"history", gx_plot_history}};
+enum { KINDS = sizeof kinds / sizeof *kinds };
+
+/* The kind that the last operand names, NULL: it names a study. A study of that name is written ./lines. */
+static const struct kind *find_kind(const char *name)
+{
+  for (int k = 0; k < KINDS; k++)
+    if (!strcmp(kinds[k].name, name)) return &kinds[k];
+  return NULL;
+}
+
+/* A last operand that is no place at all was meant as a kind. */
+static int check_kind(const char *name)
+{
+  struct stat status;
+  struct gx_nearest near = {.word = name};
+  if (!stat(name, &status) || strchr(name, '/')) return GX_EXIT_DONE;
+  for (int k = 0; k < KINDS; k++) gx_nearest_try(&near, kinds[k].name);
+  fprintf(stderr, "gridcross plot: '%s' is neither a study nor a kind", name);
+  if (*near.best) fprintf(stderr, ": did you mean %s?", near.best);
+  fputs(*near.best ? "\n" : "; kinds are lines and history\n", stderr);
+  return GX_EXIT_USAGE;
+}
+
+static int plot(const struct gx_options *options, const struct kind *kind, const struct gx_command_studies *studies,
+                const char **by)
+{
+  char *title = studies->count == 1 ? gx_store_read_title(options->operand[0], stderr) : NULL;
+  if (studies->count == 1 && !title) return GX_EXIT_USAGE;
+  const struct gx_plot figure = {
+      .studies = studies->count,
+      .table = (const struct gx_table *const *)studies->table,
+      .name = (const char *const *)studies->name,
+      .directory = options->operand,
+      .title = title ? title : "",
+      .x = gx_options_value(options, "x"),
+      .y = gx_options_value(options, "y"),
+      .bys = gx_options_values(options, "by", by),
+      .by = by,
+      .output = gx_options_value(options, "output"),
+  };
+  enum gx_plot_status status = kind->draw(&figure, stderr);
+  free(title);
+  return status == GX_PLOT_DONE ? GX_EXIT_DONE : status == GX_PLOT_FAILED ? GX_EXIT_FAILED : GX_EXIT_USAGE;
+}
+
+static int run(const struct gx_options *options)
+{
+  const char *last = options->operand[options->operands - 1];
+  const struct kind *kind = options->operands > 1 ? find_kind(last) : NULL;
+  if (!gx_options_value(options, "output")) {
+    fputs("gridcross plot: name the figure: -o FIGURE.svg, FIGURE.png or FIGURE.pdf\n", stderr);
+    return GX_EXIT_USAGE;
+  }
+  if (kind && kind->draw == gx_plot_history && gx_options_value(options, "x")) {
+    fputs("gridcross plot: a history is drawn against time: leave out --x\n", stderr);
+    return GX_EXIT_USAGE;
+  }
+  if (options->operands > 1 && !kind && check_kind(last)) return GX_EXIT_USAGE;
+  struct gx_command_studies studies;
+  int code = gx_command_studies_read(&studies, options, options->operands - !!kind);
+  const char **by = calloc(options->count + 1, sizeof *by);
+  if (!by)
+    code = gx_command_no_memory();
+  else if (!code)
+    code = plot(options, kind ? kind : &kinds[0], &studies, by);
+  gx_command_studies_free(&studies);
+  free(by);
+  return code;
+}
+
+const struct gx_command gx_command_plot = {
+    .name = "plot",
+    .operands = "DIR... [lines|history]",
+    .least = 1,
+    .most = -1,
+    .help = "Draw a figure of studies by gnuplot: errors and other results as lines, or histories.",
+    .option = option,
+    .run = run,
+};

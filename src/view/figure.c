@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The three files of a figure. */
+#include "figure.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <gridcross/store.h>
+
+#include "gnuplot.h"
+
+struct files {
+  char *folder;                 /* with a slash at its end; "" where none is named */
+  char *stem;                   /* without folder and ending */
+  const char *image, *ending;   /* borrowed */
+  char *data, *script, *beside; /* paths; the script as its folder sees it */
+};
+
+static void files_free(struct files *files)
+{
+  free(files->folder);
+  free(files->stem);
+  free(files->data);
+  free(files->script);
+  free(files->beside);
+}
+
+static char *join(const char *folder, const char *stem, const char *ending)
+{
+  size_t room = strlen(folder) + strlen(stem) + strlen(ending) + 2;
+  char *path = malloc(room);
+  if (path) snprintf(path, room, "%s%s.%s", folder, stem, ending);
+  return path;
+}
+
+static enum gx_plot_status files_name(struct files *files, const char *output, FILE *errors)
+{
+  const char *slash = strrchr(output, '/'), *name = slash ? slash + 1 : output, *dot = strrchr(name, '.');
+  *files = (struct files){.image = output, .ending = dot ? dot + 1 : ""};
+  for (const char *c = output; *c; c++)
+    if ((unsigned char)*c < ' ' || *c == 0x7F) {
+      fputs("gridcross: the name of a figure cannot hold line breaks and other control characters\n", errors);
+      return GX_PLOT_REFUSED;
+    }
+  if (!dot || dot == name || (strcmp(dot, ".svg") && strcmp(dot, ".png") && strcmp(dot, ".pdf"))) {
+    fprintf(errors, "gridcross: '%s' does not say how to draw: end the figure's name in .svg, .png or .pdf\n", output);
+    return GX_PLOT_REFUSED;
+  }
+  files->folder = slash ? strndup(output, (size_t)(name - output)) : strdup("");
+  files->stem = strndup(name, (size_t)(dot - name));
+  if (files->folder && files->stem) {
+    files->data = join(files->folder, files->stem, "csv");
+    files->script = join(files->folder, files->stem, "gp");
+    files->beside = join("./", files->stem, "gp");
+  }
+  if (files->data && files->script && files->beside) return GX_PLOT_DONE;
+  fputs("gridcross: out of memory\n", errors);
+  return GX_PLOT_FAILED;
+}
+
+/* A script that we wrote speaks for the data beside it; other files, such as table.csv of a study, are left alone. */
+static enum gx_plot_status files_check(const struct files *files, FILE *errors)
+{
+  char line[128] = "";
+  FILE *script = fopen(files->script, "rb");
+  bool ours = script && fgets(line, sizeof line, script) && !strcmp(line, gx_gnuplot_mark);
+  const char *foreign = script && !ours ? files->script : !ours && !access(files->data, F_OK) ? files->data : NULL;
+  if (script) fclose(script);
+  if (!foreign) return GX_PLOT_DONE;
+  fprintf(errors, "gridcross: %s is there and belongs to no figure: name another figure with -o\n", foreign);
+  return GX_PLOT_REFUSED;
+}
+
+static int finish(FILE *out, const char *path, FILE *errors)
+{
+  int failed = fflush(out) || ferror(out);
+  if (fclose(out) || failed) {
+    fprintf(errors, "gridcross: cannot write %s: %s\n", path, strerror(errno));
+    return -1;
+  }
+  return 0;
+}
+
+static FILE *start(const char *path, FILE *errors)
+{
+  FILE *out = fopen(path, "wb");
+  if (!out) fprintf(errors, "gridcross: cannot write %s: %s\n", path, strerror(errno));
+  return out;
+}
+
+static int files_write(const struct files *files, const struct gx_figure *figure, FILE *errors)
+{
+  FILE *out = start(files->script, errors);
+  if (!out) return -1;
+  gx_gnuplot_write(figure, files->stem, files->ending, out);
+  if (finish(out, files->script, errors) || !(out = start(files->data, errors))) return -1;
+  gx_csv_write(figure->data, out);
+  return finish(out, files->data, errors);
+}
+
+enum gx_plot_status gx_figure_draw(const struct gx_figure *figure, const char *output, FILE *errors)
+{
+  struct files files;
+  enum gx_plot_status status = files_name(&files, output, errors);
+  if (!status) status = files_check(&files, errors);
+  if (!status && files_write(&files, figure, errors)) status = GX_PLOT_FAILED;
+  if (!status) {
+    unlink(files.image); /* an older one would not fit the data beside it */
+    if (gx_gnuplot_run(*files.folder ? files.folder : ".", files.beside, errors)) {
+      fprintf(errors, "; %s and %s are written\n", files.script, files.data);
+      status = GX_PLOT_FAILED;
+    }
+  }
+  files_free(&files);
+  return status;
+}
+
+double gx_figure_number(const struct gx_figure *figure, size_t row, size_t column)
+{
+  struct gx_value value = gx_table_get(figure->data, row, column);
+  return value.type == GX_REAL ? value.real : value.type == GX_INTEGER ? (double)value.integer : NAN;
+}
+
+void gx_figure_free(struct gx_figure *figure)
+{
+  for (size_t i = 0; i < figure->lines; i++) free(figure->line[i].label);
+  free(figure->line);
+  gx_table_free(figure->data);
+}

@@ -1,0 +1,423 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which points and lines a figure of studies has. */
+#include <gridcross/plot.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <gridcross/compare.h>
+#include <gridcross/status.h>
+#include <gridcross/store.h>
+
+#include "axes.h"
+#include "figure.h"
+#include "pivot.h"
+#include "sheet.h"
+
+enum { COLOURS = 7 }; /* that gnuplot.c has */
+
+struct sketch {
+  const struct gx_plot *plot;
+  struct gx_pivot *pivot;
+  struct gx_figure figure;
+  size_t point;              /* rows of figure.data in use */
+  size_t ended[GX_STATUSES]; /* cases left out, by how they ended */
+  size_t empty;              /* cases left out: no number */
+  size_t *colour, *style;    /* [pivot->columns], owned */
+  size_t styles;
+};
+
+static enum gx_plot_status no_memory(FILE *errors)
+{
+  fputs("gridcross: out of memory\n", errors);
+  return GX_PLOT_FAILED;
+}
+
+static void sketch_free(struct sketch *sketch)
+{
+  gx_figure_free(&sketch->figure);
+  gx_pivot_free(sketch->pivot);
+  free(sketch->colour);
+  free(sketch->style);
+}
+
+/* Whether the entry may be drawn; if not, counts why. */
+static bool drawable(struct sketch *sketch, long table_row)
+{
+  const struct gx_table *table = sketch->pivot->table;
+  if (gx_pivot_ok(sketch->pivot, table_row)) return true;
+  struct gx_value status = gx_table_get(table, (size_t)table_row, (size_t)gx_table_find(table, "result.status"));
+  for (int s = 0; s < GX_STATUSES; s++) sketch->ended[s] += !strcmp(status.text, gx_status_name(s));
+  return false;
+}
+
+static void tell_left_out(const struct sketch *sketch, FILE *errors)
+{
+  size_t count = 0;
+  const char *gap = "";
+  for (int s = 0; s < GX_STATUSES; s++) count += sketch->ended[s];
+  if (count) fprintf(errors, "note: %zu case%s left out: ", count, count == 1 ? " is" : "s are");
+  for (int s = 0; s < GX_STATUSES; s++) {
+    if (!sketch->ended[s]) continue;
+    fprintf(errors, "%s%zu %s", gap, sketch->ended[s], gx_status_name(s));
+    gap = ", ";
+  }
+  if (count) putc('\n', errors);
+  if (sketch->empty) fprintf(errors, "note: %zu case%s no value there\n", sketch->empty, sketch->empty == 1 ? " has" : "s have");
+}
+
+/* Labels of the pivot's column, and of the row where that tells cases apart. */
+static char *line_label(const struct sketch *sketch, size_t column, bool row_too, size_t row)
+{
+  const struct gx_pivot *pivot = sketch->pivot;
+  char text[GX_PIVOT_LABEL];
+  char *label = calloc(pivot->axes + 1, GX_PIVOT_LABEL + 2);
+  for (size_t a = 0; label && a < pivot->axes + row_too; a++) {
+    bool across = a < pivot->axes;
+    gx_pivot_label(pivot, across ? pivot->axis[a] : pivot->row_axis,
+                   across ? pivot->column_sample[column] : pivot->row_sample[row], text);
+    if (*text && *label) strcat(label, ", ");
+    strcat(label, text);
+  }
+  for (char *c = label; c && *c; c++) /* gnuplot reads the data by lines */
+    if ((unsigned char)*c < ' ') *c = ' ';
+  return label;
+}
+
+/* Numbers columns by the distinct values that the axes of `wanted` have there. Returns how many there are. */
+static size_t number_columns(const struct gx_pivot *pivot, const bool *wanted, size_t *index)
+{
+  size_t count = 0;
+  for (size_t c = 0; c < pivot->columns; c++) {
+    size_t like = 0;
+    for (bool same = false; like < c; like++) {
+      same = true;
+      for (size_t a = 0; a < pivot->axes && same; a++)
+        same = !wanted[a] || !gx_value_compare(gx_table_get(pivot->table, pivot->column_sample[c], pivot->axis[a]),
+                                               gx_table_get(pivot->table, pivot->column_sample[like], pivot->axis[a]));
+      if (same) break;
+    }
+    index[c] = like < c ? index[like] : count++;
+  }
+  return count;
+}
+
+/* The axes that the colour shows: those of --by, else the one with most values that there are colours for. */
+static void choose_coloured(const struct sketch *sketch, bool *coloured)
+{
+  const struct gx_pivot *pivot = sketch->pivot;
+  size_t most = 0, best = 0;
+  for (size_t a = 0; a < pivot->axes; a++)
+    for (size_t b = 0; b < sketch->plot->bys; b++)
+      coloured[a] = coloured[a] || !strcmp(sketch->plot->by[b], pivot->table->column[pivot->axis[a]].name);
+  for (size_t a = 0; a < pivot->axes && !sketch->plot->bys; a++) {
+    coloured[a] = true;
+    size_t count = number_columns(pivot, coloured, sketch->colour);
+    coloured[a] = false;
+    if (count <= most || count > COLOURS) continue;
+    most = count;
+    best = a;
+  }
+  if (!sketch->plot->bys && pivot->axes) coloured[best] = true;
+}
+
+/* Colours tell some axes apart, markers and dashes the others. */
+static int choose_styles(struct sketch *sketch)
+{
+  const struct gx_pivot *pivot = sketch->pivot;
+  bool *coloured = calloc(pivot->axes + 1, sizeof *coloured);
+  sketch->colour = calloc(pivot->columns + 1, sizeof *sketch->colour);
+  sketch->style = calloc(pivot->columns + 1, sizeof *sketch->style);
+  if (coloured && sketch->colour && sketch->style) {
+    choose_coloured(sketch, coloured);
+    number_columns(pivot, coloured, sketch->colour);
+    for (size_t a = 0; a < pivot->axes; a++) coloured[a] = !coloured[a];
+    sketch->styles = number_columns(pivot, coloured, sketch->style);
+  }
+  int failed = !coloured || !sketch->colour || !sketch->style;
+  free(coloured);
+  return failed ? -1 : 0;
+}
+
+static int create_data(struct sketch *sketch, size_t rows, const struct gx_column *x, const struct gx_column *y)
+{
+  struct gx_figure *figure = &sketch->figure;
+  size_t lines = sketch->pivot->columns * sketch->pivot->rows;
+  if (!(figure->line = calloc(lines + 1, sizeof *figure->line))) return -1;
+  if (!(figure->data = gx_table_create(GX_FIGURE_COLUMNS, rows))) return -1;
+  return gx_table_column(figure->data, GX_FIGURE_LINE, "line", "", GX_INTEGER) ||
+         gx_table_column(figure->data, GX_FIGURE_X, x->name, x->unit, x->type) ||
+         gx_table_column(figure->data, GX_FIGURE_Y, y->name, y->unit, y->type) ||
+         gx_table_column(figure->data, GX_FIGURE_LABEL, "label", "", GX_TEXT);
+}
+
+/* A point of the line that is last so far. */
+static int add_point(struct sketch *sketch, struct gx_value x, struct gx_value y)
+{
+  struct gx_table *data = sketch->figure.data;
+  struct gx_figure_line *line = &sketch->figure.line[sketch->figure.lines - 1];
+  size_t row = sketch->point++;
+  line->count++;
+  return gx_table_set(data, row, GX_FIGURE_LINE, (struct gx_value){.type = GX_INTEGER, .integer = (long)sketch->figure.lines}) ||
+         gx_table_set(data, row, GX_FIGURE_X, x) || gx_table_set(data, row, GX_FIGURE_Y, y) ||
+         gx_table_set(data, row, GX_FIGURE_LABEL, (struct gx_value){.type = GX_TEXT, .text = line->label});
+}
+
+static int begin_line(struct sketch *sketch, size_t column, bool row_too, size_t row)
+{
+  size_t colour = sketch->colour[column], style = sketch->style[column] * (row_too ? sketch->pivot->rows : 1) + row_too * row;
+  bool one_style = sketch->styles * (row_too ? sketch->pivot->rows : 1) == 1;
+  sketch->figure.line[sketch->figure.lines++] = (struct gx_figure_line){
+      .label = line_label(sketch, column, row_too, row),
+      .first = sketch->point,
+      .colour = (int)(colour % COLOURS),
+      .marker = (int)(one_style ? colour : style + colour / COLOURS),
+      .dash = (int)(one_style ? colour / COLOURS : style),
+      .order = NAN,
+  };
+  return sketch->figure.line[sketch->figure.lines - 1].label ? 0 : -1;
+}
+
+static void drop_empty_line(struct sketch *sketch)
+{
+  struct gx_figure_line *line = &sketch->figure.line[sketch->figure.lines - 1];
+  if (line->count) return;
+  free(line->label);
+  sketch->figure.lines--;
+}
+
+/* Logarithmic where every value is positive and the greatest exceeds the least by this factor. `from`: points of each line that
+ * do not count. */
+static struct gx_figure_axis axis_of(const struct gx_figure *figure, size_t column, double factor, size_t from)
+{
+  struct gx_figure_axis axis = {.least = INFINITY, .most = -INFINITY};
+  for (size_t i = 0; i < figure->lines; i++)
+    for (size_t p = figure->line[i].count > from ? from : 0; p < figure->line[i].count; p++) {
+      double value = gx_figure_number(figure, figure->line[i].first + p, column);
+      axis.least = fmin(axis.least, value);
+      axis.most = fmax(axis.most, value);
+    }
+  axis.log = axis.least > 0 && axis.most >= factor * axis.least;
+  return axis;
+}
+
+static double last_y(const struct gx_figure *figure, const struct gx_figure_line *line)
+{
+  return gx_figure_number(figure, line->first + line->count - 1, GX_FIGURE_Y);
+}
+
+/* Under the last pair of points of the steepest line; of lines about as steep, the lowest, where there is room. */
+static void choose_triangle(struct gx_figure *figure)
+{
+  const struct gx_figure_line *steepest = NULL;
+  double most = 0.5;
+  for (size_t i = 0; i < figure->lines; i++) most = fmax(most, figure->line[i].order);
+  for (size_t i = 0; i < figure->lines; i++) {
+    const struct gx_figure_line *line = &figure->line[i];
+    if (line->order >= 0.5 && line->order > most - 0.3 && (!steepest || last_y(figure, line) < last_y(figure, steepest)))
+      steepest = line;
+  }
+  if (!steepest) return;
+  double below = pow(figure->y.most / figure->y.least, -0.06), log_x[2], log_y[2];
+  for (size_t i = 0; i < 2; i++) {
+    size_t row = steepest->first + steepest->count - 2 + i;
+    log_x[i] = log(gx_figure_number(figure, row, GX_FIGURE_X));
+    log_y[i] = log(gx_figure_number(figure, row, GX_FIGURE_Y));
+  }
+  for (size_t i = 0; i < 2; i++) { /* the middle half of the pair */
+    double t = i ? 0.75 : 0.25;
+    figure->triangle[i][0] = exp(log_x[0] + t * (log_x[1] - log_x[0]));
+    figure->triangle[i][1] = exp(log_y[0] + t * (log_y[1] - log_y[0])) * below;
+  }
+  figure->triangle[2][0] = figure->triangle[0][0];
+  figure->triangle[2][1] = figure->triangle[1][1];
+  figure->triangle_slope = steepest->order;
+  figure->y.least = fmin(figure->y.least, figure->triangle[2][1] * below);
+}
+
+/* Whether a column holds numbers; if not, says so. */
+static bool numeric(const struct gx_table *table, size_t column, const char *option, FILE *errors)
+{
+  if (table->column[column].type != GX_TEXT) return true;
+  fprintf(errors, "gridcross: %s is not a number: name another %s\n", table->column[column].name, option);
+  return false;
+}
+
+static int fill_lines(struct sketch *sketch, size_t x, size_t y)
+{
+  const struct gx_pivot *pivot = sketch->pivot;
+  int failed = create_data(sketch, pivot->table->rows, &pivot->table->column[x], &pivot->table->column[y]);
+  for (size_t c = 0; c < pivot->columns && !failed; c++) {
+    size_t last = 0;
+    failed = begin_line(sketch, c, false, 0);
+    for (size_t r = 0; r < pivot->rows && !failed; r++) {
+      long at = pivot->cell[r * pivot->columns + c];
+      if (at < 0 || !drawable(sketch, at)) continue;
+      if (isnan(gx_pivot_number(pivot, at, x)) || isnan(gx_pivot_number(pivot, at, y))) {
+        sketch->empty++;
+        continue;
+      }
+      failed = add_point(sketch, gx_table_get(pivot->table, (size_t)at, x), gx_table_get(pivot->table, (size_t)at, y));
+      last = r;
+    }
+    if (failed) break;
+    if (x == pivot->row_axis) sketch->figure.line[sketch->figure.lines - 1].order = gx_pivot_order(pivot, 0, last, c);
+    drop_empty_line(sketch);
+  }
+  if (!failed) sketch->figure.data->rows = sketch->point;
+  return failed;
+}
+
+static enum gx_plot_status draw(struct sketch *sketch, FILE *errors)
+{
+  tell_left_out(sketch, errors);
+  if (sketch->figure.lines) return gx_figure_draw(&sketch->figure, sketch->plot->output, errors);
+  fputs("gridcross: there is nothing to draw\n", errors);
+  return GX_PLOT_REFUSED;
+}
+
+/* Whether some study has this parameter. */
+static bool is_parameter(const struct gx_plot *plot, const char *path)
+{
+  for (size_t s = 0; s < plot->studies; s++) {
+    long c = gx_table_find(plot->table[s], path);
+    if (c >= 0 && gx_axes_parameter(plot->table[s], (size_t)c)) return true;
+  }
+  return !strcmp(path, "study");
+}
+
+static struct sketch sketch_create(const struct gx_plot *plot, const char *rows, size_t values, const char *const *value,
+                                   FILE *errors)
+{
+  for (size_t b = 0; rows && b < plot->bys; b++) {
+    if (strcmp(rows, plot->by[b])) continue;
+    fprintf(errors, "gridcross: %s cannot be both --x and --by\n", rows);
+    return (struct sketch){0};
+  }
+  const struct gx_comparison comparison = {
+      .studies = plot->studies,
+      .table = plot->table,
+      .name = plot->name,
+      .rows = rows,
+      .columns = plot->bys,
+      .column = plot->by,
+      .open = true,
+      .values = values,
+      .value = value,
+  };
+  return (struct sketch){.plot = plot, .pivot = gx_pivot_create(&comparison, errors), .figure.title = plot->title};
+}
+
+enum gx_plot_status gx_plot_lines(const struct gx_plot *plot, FILE *errors)
+{
+  bool along = !plot->x || is_parameter(plot, plot->x);
+  const char *const value[] = {plot->y ? plot->y : "result.displacement.max.rms", plot->x};
+  struct sketch sketch = sketch_create(plot, along ? plot->x : NULL, along ? 1 : 2, value, errors);
+  enum gx_plot_status status = GX_PLOT_REFUSED;
+  if (sketch.pivot) {
+    size_t x = along ? sketch.pivot->row_axis : sketch.pivot->value[1], y = sketch.pivot->value[0];
+    if (!numeric(sketch.pivot->table, x, "--x", errors) || !numeric(sketch.pivot->table, y, "--y", errors)) {
+      status = GX_PLOT_REFUSED;
+    } else if (choose_styles(&sketch) || fill_lines(&sketch, x, y)) {
+      status = no_memory(errors);
+    } else {
+      struct gx_figure *figure = &sketch.figure;
+      bool ordered = along && gx_pivot_ordered(sketch.pivot, 0);
+      figure->few_x = along;
+      figure->x = axis_of(figure, GX_FIGURE_X, ordered ? 2 : 10, 0);
+      figure->y = axis_of(figure, GX_FIGURE_Y, ordered ? 2 : 10, 0);
+      for (size_t i = 0; i < figure->lines; i++)
+        if (!figure->x.log || !figure->y.log) figure->line[i].order = NAN;
+      choose_triangle(figure);
+      status = draw(&sketch, errors);
+    }
+  }
+  sketch_free(&sketch);
+  return status;
+}
+
+/* The study that a row of the joined table came from. */
+static size_t study_of(const struct gx_plot *plot, size_t table_row)
+{
+  size_t s = 0;
+  for (; table_row >= plot->table[s]->rows; s++) table_row -= plot->table[s]->rows;
+  return s;
+}
+
+/* history: [rows][columns] of the pivot; NULL: not drawn. Returns 0, or -1 after a message. */
+static int read_histories(struct sketch *sketch, const char *name, struct gx_table **history, FILE *errors)
+{
+  const struct gx_pivot *pivot = sketch->pivot;
+  long id = gx_table_find(pivot->table, "case");
+  for (size_t i = 0; i < pivot->rows * pivot->columns; i++) {
+    long at = pivot->cell[i];
+    if (at < 0 || id < 0 || !drawable(sketch, at)) continue;
+    size_t s = study_of(sketch->plot, (size_t)at);
+    history[i] =
+        gx_store_read_history(sketch->plot->directory[s], gx_table_get(pivot->table, (size_t)at, (size_t)id).text, name, errors);
+    if (!history[i]) return -1;
+    if (!numeric(history[i], 1, "--y", errors)) return -1;
+  }
+  return 0;
+}
+
+static int fill_history(struct sketch *sketch, struct gx_table *const *history)
+{
+  const struct gx_pivot *pivot = sketch->pivot;
+  size_t cells = pivot->rows * pivot->columns, samples = 0;
+  const struct gx_table *any = NULL;
+  for (size_t i = 0; i < cells; i++) {
+    if (!history[i]) continue;
+    samples += history[i]->rows;
+    any = history[i];
+  }
+  int failed = any ? create_data(sketch, samples, &any->column[0], &any->column[1]) : 0;
+  for (size_t c = 0; c < pivot->columns && any && !failed; c++)
+    for (size_t r = 0; r < pivot->rows && !failed; r++) {
+      const struct gx_table *one = history[r * pivot->columns + c];
+      if (!one) continue;
+      failed = begin_line(sketch, c, pivot->rows > 1, r);
+      for (size_t k = 0; k < one->rows && !failed; k++)
+        if (gx_table_get(one, k, 1).type != GX_NULL) failed = add_point(sketch, gx_table_get(one, k, 0), gx_table_get(one, k, 1));
+      if (failed) continue;
+      sketch->empty += !sketch->figure.line[sketch->figure.lines - 1].count;
+      drop_empty_line(sketch);
+    }
+  if (any && !failed) sketch->figure.data->rows = sketch->point;
+  return failed;
+}
+
+/* Errors grow over orders of magnitude from an exact start; energies swing. */
+static bool error_history(const char *name)
+{
+  return !strncmp(name, "displacement.", 13) || !strncmp(name, "velocity.", 9) || !strncmp(name, "stress.", 7);
+}
+
+enum gx_plot_status gx_plot_history(const struct gx_plot *plot, FILE *errors)
+{
+  const char *name = plot->y ? plot->y : "displacement.rms", *const value[] = {"case"};
+  bool by_study = false;
+  for (size_t b = 0; b < plot->bys; b++) by_study = by_study || !strcmp(plot->by[b], "study");
+  struct sketch sketch = sketch_create(plot, by_study ? NULL : "study", 1, value, errors);
+  size_t cells = sketch.pivot ? sketch.pivot->rows * sketch.pivot->columns : 0;
+  struct gx_table **history = calloc(cells + 1, sizeof *history);
+  enum gx_plot_status status = GX_PLOT_REFUSED;
+  if (!history || (sketch.pivot && choose_styles(&sketch))) {
+    status = no_memory(errors);
+  } else if (sketch.pivot && !read_histories(&sketch, name, history, errors)) {
+    struct gx_figure *figure = &sketch.figure;
+    if (fill_history(&sketch, history)) {
+      status = no_memory(errors);
+    } else {
+      figure->dense = true;
+      figure->x = axis_of(figure, GX_FIGURE_X, INFINITY, 0);
+      figure->y = axis_of(figure, GX_FIGURE_Y, error_history(name) ? 10 : INFINITY, 1);
+      status = draw(&sketch, errors);
+    }
+  }
+  for (size_t i = 0; history && i < cells; i++) gx_table_free(history[i]);
+  free(history);
+  sketch_free(&sketch);
+  return status;
+}

@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cost of the spline spaces by degree, ns per particle-step (one acceleration a step), beside the moving mesh of the same degree
+ * in the same process, and beside what GSL takes for the values and first derivatives of one point. Minimum of the repetitions. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include <gsl/gsl_bspline.h>
+#include <gsl/gsl_errno.h>
+
+#include "study/simulation.h"
+
+enum { REPETITIONS = 15, STEPS = 400, CELLS = 40, PER_CELL = 2 };
+
+static double now(void)
+{
+  struct timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static struct gx_value text(const char *value)
+{
+  return (struct gx_value){.type = GX_TEXT, .text = value};
+}
+
+static struct gx_value integer(long value)
+{
+  return (struct gx_value){.type = GX_INTEGER, .integer = value};
+}
+
+/* One run of STEPS steps; ns per particle-step. */
+static double run(const char *space, const char *frame, int degree)
+{
+  struct gx_case one = {0};
+  one.value[GX_PROBLEM_NAME] = text("bar-linear");
+  one.value[GX_PROBLEM_AMPLITUDE] = (struct gx_value){.type = GX_REAL, .real = 0.005};
+  one.value[GX_MESH_CELLS] = integer(CELLS);
+  one.value[GX_MESH_PARTICLES_PER_CELL] = integer(PER_CELL);
+  one.value[GX_METHOD_SPACE] = text(space);
+  one.value[GX_METHOD_FRAME] = text(frame);
+  one.value[GX_METHOD_DEGREE] = integer(degree);
+  one.value[GX_TIME_CFL] = (struct gx_value){.type = GX_REAL, .real = 0.05};
+  gx_parameter_resolve(one.value);
+  struct gx_simulation simulation;
+  struct gx_outcome outcome;
+  struct gx_stepper *stepper = NULL;
+  if (gx_simulation_plan(&simulation, &one, &outcome) || gx_simulation_build(&simulation, &outcome) ||
+      !(stepper = gx_stepper_create(simulation.clock, simulation.space, NULL)))
+    exit(1);
+  double before = now();
+  for (int k = 0; k < STEPS; k++)
+    if (gx_stepper_step(stepper, k * simulation.dt, simulation.dt)) exit(1);
+  double ns = 1e9 * (now() - before) / ((double)STEPS * (double)simulation.particles->n);
+  gx_stepper_free(stepper);
+  gx_simulation_free(&simulation);
+  return ns;
+}
+
+/* Values and first derivatives at one point, in order of the points. */
+static double gsl_point(int degree)
+{
+  enum { POINTS = 20000 };
+  gsl_bspline_workspace *workspace = gsl_bspline_alloc((size_t)degree + 1, CELLS + 1);
+  gsl_matrix *values = gsl_matrix_alloc((size_t)degree + 1, 2);
+  size_t first, last;
+  if (!workspace || !values) exit(1);
+  gsl_bspline_knots_uniform(0, 1, workspace);
+  double before = now();
+  for (int k = 0; k < POINTS; k++) gsl_bspline_deriv_eval_nonzero((k + 0.5) / POINTS, 1, values, &first, &last, workspace);
+  double ns = 1e9 * (now() - before) / POINTS;
+  gsl_matrix_free(values);
+  gsl_bspline_free(workspace);
+  return ns;
+}
+
+int main(void)
+{
+  gsl_set_error_handler_off();
+  printf("degree  moving-mesh  spline-particle reference  ratio  current  spline-grid reference  current  gsl point\n");
+  for (int degree = 3; degree <= 9; degree += 2) {
+    double least[6] = {INFINITY, INFINITY, INFINITY, INFINITY, INFINITY, INFINITY};
+    for (int r = 0; r < REPETITIONS; r++) {
+      const double ns[6] = {run("moving-mesh", "", degree),
+                            run("spline-particle", "reference", degree),
+                            run("spline-particle", "current", degree),
+                            run("spline-grid", "reference", degree),
+                            run("spline-grid", "current", degree),
+                            gsl_point(degree)};
+      for (int i = 0; i < 6; i++) least[i] = fmin(least[i], ns[i]);
+    }
+    printf("%6d %12.2f %26.2f %6.2f %8.1f %22.2f %8.1f %10.1f\n", degree, least[0], least[1], least[1] / least[0], least[2],
+           least[3], least[4], least[5]);
+  }
+  return 0;
+}

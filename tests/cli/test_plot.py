@@ -1,0 +1,287 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Figures: what is drawn, what stays beside it, hostile names, messages. usage: test_plot.py GRIDCROSS"""
+import csv
+import math
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+PROGRAM = pathlib.Path(sys.argv[1]).resolve()
+if not shutil.which("gnuplot"):
+    print("skipped: gnuplot is not installed")
+    sys.exit(77)
+STUDY = """title: small
+problem: {name: bar-neo-hookean}
+mesh: {cells: [8, 16, 32]}
+method: {space: [standard, moving-mesh], degree: [1, 2]}
+time: {cfl: 0.4, periods: 0.25}
+output: {histories: 2}
+"""
+HOSTILE = "a'b \"c\" `touch p1` $(touch p2) %d %s @x {/Bold y} z^2_3 \\n ~a{.8b} <i> & # ; system('touch p3')"
+
+
+class Case(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.place = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.place.cleanup)
+        cls.base = pathlib.Path(cls.place.name) / "base"
+        cls.base.mkdir()
+        (cls.base / "small.yaml").write_text(STUDY)
+        subprocess.run([PROGRAM, "run", "small.yaml", "-q"], cwd=cls.base, check=True, capture_output=True)
+
+    def setUp(self):
+        place = tempfile.TemporaryDirectory()
+        self.addCleanup(place.cleanup)
+        self.dir = pathlib.Path(place.name) / "work"
+        shutil.copytree(self.base, self.dir)
+
+    def call(self, *args, code=0, **more):
+        done = subprocess.run([PROGRAM, *map(str, args)], cwd=self.dir, capture_output=True, timeout=60, **more)
+        done.stdout, done.stderr = done.stdout.decode(), done.stderr.decode()
+        self.assertEqual(done.returncode, code, f"{args}: {done.stdout[-500:]}\n{done.stderr[-500:]}")
+        self.assertEqual(done.stdout, "")
+        return done
+
+    def run_study(self, *args):
+        subprocess.run([PROGRAM, "run", "-q", *args], cwd=self.dir, check=True, capture_output=True)
+
+    def plot(self, *args, **more):
+        return self.call("plot", "small.study", *args, **more)
+
+    def rows(self, name):
+        with open(self.dir / name, newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    def table(self):
+        return self.rows("small.study/table.csv")
+
+    def texts(self, name):
+        """Texts of an SVG, parts of one joined."""
+        root = ElementTree.parse(self.dir / name).getroot()
+        return ["".join(t.itertext()).strip() for t in root.iter("{http://www.w3.org/2000/svg}text")]
+
+
+class Lines(Case):
+    def test_defaults(self):
+        done = self.plot("-o", "fig.svg")
+        self.assertEqual(done.stderr, "")
+        self.assertEqual(sorted(p.name for p in self.dir.iterdir()),
+                         ["fig.csv", "fig.gp", "fig.svg", "small.study", "small.yaml"])
+        rows, error = self.rows("fig.csv"), "result.displacement.max.rms"
+        self.assertEqual(list(rows[0]), ["line", "mesh.cells", error, "label"])
+        cases = {(f"{c['method.space']}, degree {c['method.degree']}", c["mesh.cells"]): c[error] for c in self.table()}
+        self.assertEqual({(r["label"], r["mesh.cells"]): r[error] for r in rows}, cases)
+        self.assertEqual([r["mesh.cells"] for r in rows], ["8", "16", "32"] * 4)
+        texts = self.texts("fig.svg")
+        for expected in ("small", "mesh.cells", error + " [m]", "8", "16", "32"):
+            self.assertIn(expected, texts)
+        for label in {label for label, _ in cases}:
+            order = math.log2(float(cases[label, "16"]) / float(cases[label, "32"]))
+            self.assertIn(f"{label} (order {order:.1f})", texts)
+        marks = re.findall(r"<use xlink:href='#gpPt\d+' transform='translate", (self.dir / "fig.svg").read_text())
+        self.assertEqual(len(marks), 12 + 4)  # points, and samples in the legend
+        script = (self.dir / "fig.gp").read_text()
+        self.assertIn("set logscale x\n", script)
+        self.assertIn("set logscale y\n", script)
+
+    def test_equal_bytes(self):
+        self.plot("-o", "fig.svg")
+        first = [(self.dir / f"fig.{e}").read_bytes() for e in ("svg", "csv", "gp")]
+        self.plot("-o", "fig.svg", env={**os.environ, "TZ": "Asia/Tokyo", "HOME": str(self.dir)})
+        self.assertEqual(first, [(self.dir / f"fig.{e}").read_bytes() for e in ("svg", "csv", "gp")])
+
+    def test_formats(self):
+        for ending, magic in (("svg", b"<?xml"), ("png", b"\x89PNG"), ("pdf", b"%PDF")):
+            self.plot("-o", f"fig.{ending}")
+            self.assertTrue((self.dir / f"fig.{ending}").read_bytes().startswith(magic))
+
+    def test_script_draws_by_itself(self):
+        (self.dir / "figures").mkdir()
+        self.plot("-o", "figures/fig.svg")
+        drawn = (self.dir / "figures/fig.svg").read_bytes()
+        os.rename(self.dir / "figures", self.dir / "moved")
+        (self.dir / "moved/fig.svg").unlink()
+        subprocess.run(["gnuplot", "-d", "fig.gp"], cwd=self.dir / "moved", check=True, capture_output=True)
+        self.assertEqual(drawn, (self.dir / "moved/fig.svg").read_bytes())
+
+    def test_every_line_has_its_legend(self):
+        (self.dir / "many.yaml").write_text(
+            "problem: {name: bar-neo-hookean}\nmesh: {cells: [4, 8]}\ntime: {cfl: 0.1, periods: 0.02}\n"
+            "method: {space: [standard, moving-mesh], degree: [1, 2, 3], mass: [lumped, consistent], "
+            "clock: [euler-stress-last, central-difference, rk4, yoshida4, pefrl]}\n")
+        self.run_study("many.yaml")
+        self.call("plot", "many.study", "-o", "fig.svg")
+        self.assertEqual(len([t for t in self.texts("fig.svg") if "degree" in t]), 60)
+        styles = re.findall(r"set style line \d+ (.*)", (self.dir / "fig.gp").read_text())
+        self.assertEqual(len(set(styles)), 60)
+
+    def test_by_leads_label_and_colour(self):
+        self.plot("--by", "method.degree", "-o", "fig.svg")
+        rows = self.rows("fig.csv")
+        self.assertEqual(rows[0]["label"], "degree 1, standard")
+        styles = re.findall(r"linecolor rgb '(\S+)' .*? pointtype (\d+)", (self.dir / "fig.gp").read_text())
+        self.assertEqual([s[0] for s in styles], [styles[0][0]] * 2 + [styles[2][0]] * 2)
+        self.assertNotEqual(styles[0][0], styles[2][0])
+        self.assertNotEqual(styles[0][1], styles[1][1])
+
+    def test_result_as_x(self):
+        self.plot("--x", "result.seconds", "--y", "result.crossings", "-o", "fig.svg")
+        rows = self.rows("fig.csv")
+        self.assertEqual(list(rows[0])[1:3], ["result.seconds", "result.crossings"])
+        seconds = sorted(float(r["seconds"]) for r in self.rows("small.study/timing.csv"))
+        self.assertEqual(sorted(float(r["result.seconds"]) for r in rows), seconds)
+        self.assertNotIn("(order", (self.dir / "fig.gp").read_text())
+        self.assertNotIn("set logscale y", (self.dir / "fig.gp").read_text())  # the moving mesh has no crossings
+
+    def test_linear_axes_show_no_order(self):
+        self.run_study("small.yaml", "--set", "mesh.cells=[8, 9]", "-o", "near.study")
+        self.call("plot", "near.study", "-o", "fig.svg")
+        script = (self.dir / "fig.gp").read_text()
+        self.assertNotIn("set logscale x", script)
+        self.assertNotIn("(order", script)
+
+    def test_cases_that_failed_are_left_out(self):
+        (self.dir / "fast.yaml").write_text(STUDY.replace("cfl: 0.4", "cfl: [0.4, 50]").replace("degree: [1, 2]", "degree: 1"))
+        self.run_study("fast.yaml")
+        bad = [c["result.status"] for c in self.rows("fast.study/table.csv") if c["result.status"] != "ok"]
+        self.assertTrue(bad)
+        for kind in ("lines", "history"):
+            done = self.call("plot", "fast.study", kind, "-o", f"{kind}.svg")
+            self.assertRegex(done.stderr, rf"^note: {len(bad)} cases are left out: ")
+            for status in set(bad):
+                self.assertIn(f"{bad.count(status)} {status}", done.stderr)
+        drawn = {r["label"] for r in self.rows("history.csv")}
+        points = {(f"cells {r['mesh.cells']}, " + r["label"]) for r in self.rows("lines.csv")}
+        ok = {f"cells {c['mesh.cells']}, {c['method.space']}, cfl {float(c['time.cfl']):g}"
+              for c in self.rows("fast.study/table.csv") if c["result.status"] == "ok"}
+        self.assertEqual(drawn, ok)
+        self.assertEqual(points, ok)
+
+
+class History(Case):
+    def test_samples_as_stored(self):
+        self.plot("history", "--y", "energy.kinetic", "-o", "fig.svg")
+        rows = self.rows("fig.csv")
+        self.assertEqual(list(rows[0]), ["line", "time", "energy.kinetic", "label"])
+        self.assertEqual(len({r["label"] for r in rows}), 12)
+        ends = {}
+        for row in rows:
+            ends[row["label"]] = float(row["time"])
+        expected = float(self.table()[0]["result.time"])
+        self.assertEqual(set(ends.values()), {expected})
+        self.assertIn("time [s]", self.texts("fig.svg"))
+        self.assertIn("energy.kinetic [J]", self.texts("fig.svg"))
+
+    def test_last_error_is_the_table_s(self):
+        self.plot("history", "-o", "fig.svg", "--by", "method.space")
+        last = {r["label"]: r["displacement.rms"] for r in self.rows("fig.csv")}
+        for case in self.table():
+            label = f"{case['method.space']}, cells {case['mesh.cells']}, degree {case['method.degree']}"
+            self.assertEqual(last[label], case["result.displacement.final.rms"])
+
+    def test_none_kept(self):
+        self.run_study("small.yaml", "--set", "output.histories=0", "-o", "none.study")
+        self.assertIn("set output.histories", self.call("plot", "none.study", "history", "-o", "fig.svg", code=2).stderr)
+
+
+class Hostile(Case):
+    def assert_inert(self, *figures):
+        found = [p.name for p in self.dir.rglob("*") if re.fullmatch(r"p\d", p.name)]
+        self.assertEqual(found, [])
+        for figure in figures:
+            self.assertTrue((self.dir / figure).read_bytes().startswith(b"<?xml"), figure)
+
+    def test_titles(self):
+        for number, title in enumerate((HOSTILE, "one\ntwo\t\x7fthree", "trailing \\", "'", "'; system('touch p4') #", "'' ''",
+                                          "\\", "ä → ∂²u", "`", "@")):
+            quoted = "".join(f"\\x{ord(c):02x}" if ord(c) < 128 and not c.isalnum() else c for c in title)
+            (self.dir / "odd.yaml").write_text(STUDY.replace("title: small", f'title: "{quoted}"'), encoding="utf-8")
+            self.run_study("odd.yaml")
+            self.call("plot", "odd.study", "-o", "fig.svg")
+            self.assert_inert("fig.svg")
+            expected = re.sub(r"[\n\t\x7f]", " ", title)
+            self.assertIn(" ".join(expected.split()), [" ".join(t.split()) for t in self.texts("fig.svg")])
+
+    def test_study_names_in_labels(self):
+        names = [HOSTILE.replace("/", "|"), "new\nline, comma", os.fsdecode(b"\xff\xfe bad utf-8")]
+        for name in names:
+            shutil.copytree(self.dir / "small.study", self.dir / name)
+        self.call("plot", *names, "-o", "fig.svg")
+        self.assert_inert("fig.svg")
+        texts = self.texts("fig.svg")
+        for name in (names[0], "new line, comma", "?? bad utf-8"):
+            self.assertTrue([t for t in texts if name in t], name)
+        lines = (self.dir / "fig.csv").read_bytes().count(b"\n")
+        self.assertEqual(lines, 1 + 12 * len(names))  # gnuplot reads lines
+
+    def test_figure_names(self):
+        names = ["|touch p1;.svg", "< touch p1.svg", "-e.svg", "a'b.svg", "`touch p1`.svg", "$(touch p1).svg", "%d.svg", "@x.svg",
+                 "~.svg", "\\.svg", "#.svg", "a.b.svg", '".svg', "{x}^2.svg", "-.svg",
+                 "'; system('touch p4') #.svg"]
+        folder = "it's `touch p2` \"$(touch p3)\" %s"
+        (self.dir / folder).mkdir()
+        for name in names:
+            self.plot("-o", name)
+            self.plot("-o", f"{folder}/{name}")
+            self.assert_inert(name, f"{folder}/{name}")
+        for folder in ("~", "'", "' x", "`touch p5`", '"', "\\", "-e"):
+            (self.dir / folder).mkdir()
+            self.plot("-o", f"{folder}/fig.svg")
+            self.assert_inert(f"{folder}/fig.svg")
+        self.assertIn("control", self.plot("-o", "a\nb.svg", code=2).stderr)
+        self.assertEqual([p for p in self.dir.iterdir() if "\n" in p.name], [])
+
+    def test_other_files_are_left_alone(self):
+        before = (self.dir / "small.study/table.csv").read_bytes()
+        for name in ("table", "timing"):
+            self.assertIn(f"{name}.csv", self.plot("-o", f"small.study/{name}.svg", code=2).stderr)
+        self.assertEqual((self.dir / "small.study/table.csv").read_bytes(), before)
+        (self.dir / "mine.gp").write_text("plot sin(x)\n")
+        self.assertIn("mine.gp", self.plot("-o", "mine.svg", code=2).stderr)
+        self.assertEqual((self.dir / "mine.gp").read_text(), "plot sin(x)\n")
+
+
+class Messages(Case):
+    def test_usage(self):
+        for args, hint in [
+            ([], "-o FIGURE.svg"), (["-o", "fig"], ".svg, .png or .pdf"), (["-o", "fig.jpg"], ".svg, .png or .pdf"),
+            (["-o", ".svg"], ".svg, .png or .pdf"), (["-o", ""], ".svg, .png or .pdf"),
+            (["--y", "result.crosings"], "did you mean result.crossings?"), (["--x", "mesh.cell"], "did you mean mesh.cells?"),
+            (["--by", "method.spce"], "did you mean method.space?"), (["--x", "method.space"], "not a number"),
+            (["--y", "result.status"], "not a number"), (["--x", "mesh.cells", "--by", "mesh.cells"], "both"),
+            (["--y", "result.reason"], "not a number"), (["histry"], "did you mean history?"), (["xt"], "lines and history"),
+            (["none/"], "none"), (["history", "--x", "time"], "leave out --x"), (["history", "--y", "status"], "no history"),
+            (["history", "--y", "energy.kinetc"], "did you mean energy.kinetic?"), (["history", "--y", ""], "no history"),
+            (["history", "--y", "."], "no history"), (["history", "--y", "/table"], "no history"),
+            (["--y", "result.particle"], "nothing to draw"),
+        ]:
+            with self.subTest(args=args):
+                more = [] if not args or "-o" in args else ["-o", "fig.svg"]
+                self.assertIn(hint, self.plot(*args, *more, code=2).stderr)
+        self.assertEqual(sorted(p.name for p in self.dir.iterdir()), ["small.study", "small.yaml"])
+
+    def test_gnuplot_absent(self):
+        (self.dir / "fig.svg").write_text("old")
+        done = self.plot("-o", "fig.svg", code=1, env={"PATH": str(self.dir)})
+        self.assertIn("apt-get install gnuplot-nox", done.stderr)
+        self.assertEqual(sorted(p.name for p in self.dir.iterdir()), ["fig.csv", "fig.gp", "small.study", "small.yaml"])
+
+    def test_gnuplot_fails(self):
+        fake = self.dir / "bin"
+        fake.mkdir()
+        (fake / "gnuplot").write_text("#!/bin/sh\nexit 3\n")
+        (fake / "gnuplot").chmod(0o755)
+        self.assertIn("could not draw", self.plot("-o", "fig.svg", code=1, env={"PATH": str(fake)}).stderr)
+
+    def test_unwritable(self):
+        self.assertIn("cannot write none/fig.gp", self.plot("-o", "none/fig.svg", code=1).stderr)
+
+
+unittest.main(argv=sys.argv[:1])
