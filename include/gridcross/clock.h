@@ -10,7 +10,7 @@
 
 struct gx_row {
   enum gx_primitive primitive;
-  double coefficient;
+  double coefficient; /* time span / dt, where the primitive has one */
 };
 
 enum { GX_MAX_STAGES = 16 };
@@ -65,7 +65,9 @@ struct gx_stepper *gx_stepper_create(const struct gx_clock *clock, struct gx_spa
 void gx_stepper_free(struct gx_stepper *stepper);
 /* One step from time t. */
 enum gx_status gx_stepper_step(struct gx_stepper *stepper, double t, double dt);
-/* Acceleration at the current state and time t without advancing; the next step from t reuses it. */
+/* Acceleration at the current state and time t without advancing; the next step from t reuses it. A step whose last acceleration
+ * belongs to its end leaves that for the next one, taken at t plus its drifts: the next t may differ from that by round-off. To
+ * continue a run bit for bit, restore the arrays of the space's state and accelerate at that time. */
 enum gx_status gx_stepper_accelerate(struct gx_stepper *stepper, double t);
 
 #endif

@@ -48,7 +48,7 @@ struct gx_result {
   struct gx_measured measured;
   double reference[GX_QUANTITIES][GX_NORMS]; /* final state less that of dt / output.reference; NaN: not asked */
   double seconds;                            /* processor time of the steps, measures excluded */
-  double ns_per_particle_step;
+  double ns_per_particle_step;               /* NaN: no step was taken */
   struct gx_history history;
 };
 
@@ -56,12 +56,12 @@ struct gx_result {
 struct gx_plan {
   struct gx_outcome outcome; /* GX_REFUSED with the reason when it cannot run */
   double dt, end;            /* s */
-  double steps;
-  double particles;
-  double stable_dt; /* s; NaN: unknown */
-  double growth;    /* largest real part of the eigenvalues at the start, 1/s; NaN: unknown */
+  double steps, particles;   /* numbers of them */
+  double stable_dt;          /* s; NaN: unknown */
+  double growth;             /* largest real part of the eigenvalues at the start, 1/s; NaN: unknown */
 };
 
+/* Builds the case, so that it can fail for want of memory; once gsl_set_error_handler_off was called. */
 struct gx_plan gx_case_plan(const struct gx_case *one);
 /* Runs one case; never aborts, once gsl_set_error_handler_off was called (gx_study_run does). */
 struct gx_result gx_case_run(const struct gx_case *one);

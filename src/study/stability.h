@@ -6,7 +6,7 @@
 #include <gridcross/clock.h>
 
 /* Highest angular frequency of the space linearised at its present state, by power iteration, rad/s; NaN when the iteration
- * fails. From below: usually within a per cent. The state is restored. */
+ * fails. From below: usually within a per cent. The state is restored, weights and forces are not. */
 double gx_stability_frequency(struct gx_space *space);
 
 /* Largest real part of the eigenvalues of the same linearisation, 1/s: how fast the space itself grows, whatever the clock. NaN

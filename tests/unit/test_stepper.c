@@ -259,6 +259,25 @@ static void observed_accelerations_are_reused(void **state)
   }
 }
 
+/* A step ends with a new velocity of particles or new positions: nodal velocity must be projected again, the force only if
+ * positions are new. */
+static void a_step_leaves_nodal_velocity_to_be_projected(void **state)
+{
+  (void)state;
+  for (size_t i = 0; gx_clock_family[i]; i++) {
+    struct gx_outcome outcome;
+    struct oscillator one = start(gx_clock_family[i], 0, 0.1, &outcome);
+    struct gx_stepper *stepper = gx_stepper_create(gx_clock_family[i], &one.space, NULL);
+    for (int step = 0; step < 3; step++) {
+      assert_int_equal(gx_stepper_step(stepper, step * 0.1, 0.1), GX_OK);
+      int projected = one.projected;
+      assert_int_equal(gx_stepper_accelerate(stepper, (step + 1) * 0.1), GX_OK);
+      CHECK(one.projected == projected + 1, "%s", gx_clock_family[i]->name);
+    }
+    gx_stepper_free(stepper);
+  }
+}
+
 static void failures_are_passed_on(void **state)
 {
   (void)state;
@@ -353,6 +372,7 @@ int main(void)
       cmocka_unit_test(work_is_the_change_of_kinetic_energy),
       cmocka_unit_test(forces_are_taken_at_the_time_of_their_stage),
       cmocka_unit_test(observed_accelerations_are_reused),
+      cmocka_unit_test(a_step_leaves_nodal_velocity_to_be_projected),
       cmocka_unit_test(failures_are_passed_on),
       cmocka_unit_test(tableaux_meet_the_order_conditions),
       cmocka_unit_test(each_clock_is_of_one_form),
