@@ -44,7 +44,7 @@ struct gx_result {
   double dt;        /* s */
   double steps;     /* taken */
   double time;      /* s, reached */
-  double stable_dt; /* s, estimated at the start; NaN: not estimated (short runs that ended well) */
+  double stable_dt; /* s, estimated at the start; NaN: unknown */
   struct gx_measured measured;
   double reference[GX_QUANTITIES][GX_NORMS]; /* final state less that of dt / output.reference; NaN: not asked */
   double seconds;                            /* processor time of the steps, measures excluded */

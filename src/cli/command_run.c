@@ -96,14 +96,9 @@ static bool is_shown(const struct gx_table *table, const char *name, bool timing
 /* What varies and what matters most. */
 static struct gx_table *summary(const struct gx_table *table, bool timing)
 {
-  static const char *const shown[] = {"result.status",
-                                      "result.displacement.max.rms",
-                                      "result.crossings",
-                                      "result.energy.drift",
-                                      "result.ns_per_particle_step",
-                                      "result.time",
-                                      "result.particle",
-                                      "result.reason"};
+  static const char *const shown[] = {
+      "result.status",    "result.displacement.max.rms", "result.crossings", "result.energy.drift", "result.dt",
+      "result.stable_dt", "result.ns_per_particle_step", "result.time",      "result.particle",     "result.reason"};
   size_t *column = calloc(table->columns + sizeof shown / sizeof *shown, sizeof *column);
   long count = column ? gx_axes_find(table, 0, column) : -1;
   for (size_t i = 0; i < sizeof shown / sizeof *shown && count >= 0; i++) {

@@ -74,6 +74,7 @@ static void put_case(struct cursor *at, const struct gx_case *one, const struct 
   put_real(at, "result.energy.defect", "J", ok ? measured->max_defect : NAN);
   put_real(at, "result.energy.drift", "", ok ? measured->drift : NAN);
   for (int q = 0; q < GX_QUANTITIES; q++) put_errors(at, "result.", ".reference", result->reference, q, ok);
+  put_real(at, "result.stable_dt", "s", ran ? result->stable_dt : NAN);
   if (!timing) return;
   put_real(at, "result.seconds", "s", ran ? result->seconds : NAN);
   put_real(at, "result.ns_per_particle_step", "ns", ran ? result->ns_per_particle_step : NAN);

@@ -296,6 +296,37 @@ static void the_stable_step_is_that_of_the_highest_frequency(void **state)
   }
 }
 
+/* Re-projected velocities: the stated bound of linear elements is dt^2 (2c/h)^2 2 = 4, CFL 1/sqrt 2. Runs at the bound stay, runs at
+ * 1.25 of it do not. */
+static void the_stable_step_knows_of_projection(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *space, *basis;
+    double least, most; /* CFL numbers, where theory has them */
+  } rows[] = {{"standard", "linear", 0.70, 0.72},
+              {"moving-mesh", "linear", 0.70, 0.72},
+              {"standard", "bspline", 0.5, 3},
+              {"moving-mesh", "bspline", 0.5, 3},
+              {"standard", "ugimp", 0.5, 3}};
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+    struct gx_case one = case_draft("problem.name=bar-linear", "problem.modulus=1", "problem.boundary=periodic", "mesh.cells=16",
+                                    "problem.amplitude=1e-5", "time.periods=40", "method.projection=each-step");
+    case_set(&one, GX_METHOD_SPACE, rows[i].space);
+    case_set(&one, GX_METHOD_BASIS, rows[i].basis);
+    gx_parameter_resolve(one.value);
+    double stable = gx_case_plan(&one).stable_dt;
+    CHECK(stable * 16 > rows[i].least && stable * 16 < rows[i].most, "%s %s: CFL %g", rows[i].space, rows[i].basis, stable * 16);
+    for (int above = 0; above < 2; above++) {
+      one.value[GX_TIME_CFL] = (struct gx_value){.type = GX_NULL};
+      case_set_real(&one, GX_TIME_DT, (above ? 1.25 : 1) * stable);
+      struct gx_result result = gx_case_run(&one);
+      CHECK((result.outcome.status == GX_OK) == !above, "%s %s at %g of the stable step: %s", rows[i].space, rows[i].basis,
+            above ? 1.25 : 1.0, gx_status_name(result.outcome.status));
+    }
+  }
+}
+
 int main(void)
 {
   gsl_set_error_handler_off();
@@ -313,6 +344,7 @@ int main(void)
       cmocka_unit_test(phases_are_multiples_of_pi),
       cmocka_unit_test(periods_are_those_of_the_problem),
       cmocka_unit_test(the_stable_step_is_that_of_the_highest_frequency),
+      cmocka_unit_test(the_stable_step_knows_of_projection),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

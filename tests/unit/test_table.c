@@ -135,6 +135,7 @@ static const char *const result_columns[] = {
     "result.stress.reference.inf",
     "result.stress.reference.rms",
     "result.stress.reference.l2n",
+    "result.stable_dt",
     "result.seconds",
     "result.ns_per_particle_step",
 };
