@@ -75,6 +75,28 @@ long gx_axes_refine(size_t rows, size_t *group, const size_t *rank)
   return groups;
 }
 
+/* Whether the column differs between studies and never within one. */
+static bool tells_studies_apart(const struct gx_table *table, size_t column)
+{
+  long study = gx_table_find(table, "study");
+  bool varies = false;
+  if (study < 0 || (size_t)study == column) return false;
+  for (size_t r = 1; r < table->rows; r++) {
+    bool same_study = !gx_value_compare(gx_table_get(table, r - 1, (size_t)study), gx_table_get(table, r, (size_t)study));
+    bool same_value = !gx_value_compare(gx_table_get(table, r - 1, column), gx_table_get(table, r, column));
+    if (same_study && !same_value) return false;
+    varies = varies || !same_value;
+  }
+  return varies;
+}
+
+static bool is_among(size_t column, const size_t *axis, long count)
+{
+  for (long i = 0; i < count; i++)
+    if (axis[i] == column) return true;
+  return false;
+}
+
 long gx_axes_find(const struct gx_table *table, size_t chosen, size_t *axis)
 {
   size_t *group = calloc(table->rows + 1, sizeof *group), *trial = malloc((table->rows + 1) * sizeof *trial);
@@ -90,7 +112,7 @@ long gx_axes_find(const struct gx_table *table, size_t chosen, size_t *axis)
     memcpy(trial, group, table->rows * sizeof *trial);
     long split = gx_axes_rank(table, c, rank) < 0 ? -1 : gx_axes_refine(table->rows, trial, rank);
     if (split < 0) count = -1;
-    if (split <= groups) continue;
+    if (split <= groups && (split < 0 || is_among(c, axis, count) || !tells_studies_apart(table, c))) continue;
     axis[count++] = c;
     groups = split;
     memcpy(group, trial, table->rows * sizeof *group);

@@ -262,6 +262,16 @@ class Compare(Case):
         self.assertIn("again", out)
         self.call("compare", "small.study", "small.study", code=2)
 
+    def test_studies_of_different_problems_are_no_refinement(self):
+        for name, modulus, cells in (("soft", "16", "[8, 16]"), ("hard", "1e4", "32"), ("soft-too", "16", "32")):
+            text = f"problem: {{name: bar-linear, modulus: {modulus}}}\nmesh: {{cells: {cells}}}\ntime: {{cfl: 0.4, periods: 0.1}}\n"
+            (self.dir / f"{name}.yaml").write_text(text)
+            self.call("run", f"{name}.yaml", "-q", "-o", f"{name}.study")
+        apart = self.call("compare", "soft.study", "hard.study").stdout
+        self.assertIn("modulus 16", apart)
+        self.assertIn("modulus 10000", apart)
+        self.assertNotIn("modulus", self.call("compare", "soft.study", "soft-too.study").stdout)
+
     def test_questions_that_have_no_answer(self):
         for args, hint in [(["--rows", "mesh.cels"], "mesh.cells"), (["--columns", "x"], "method.space"),
                            (["--value", "crossings"], "result.crossings"), (["--columns", "method.space"], "method.degree")]:
