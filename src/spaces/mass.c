@@ -65,19 +65,34 @@ static void number_functions(struct gx_mass *mass)
   }
 }
 
+/* Band matrices: the assembled one, and a factor for each set of held functions. */
+static void dimensions(const struct gx_grid *grid, size_t *unknowns, size_t *bandwidth, int *variants)
+{
+  *unknowns = 1;
+  *bandwidth = 0;
+  *variants = 1;
+  for (int d = 0; d < grid->dim; d++) {
+    *bandwidth += bandwidth_on_axis(&grid->axis[d]) * *unknowns;
+    *unknowns *= (size_t)grid->axis[d].functions;
+    if (!grid->axis[d].periodic) *variants = grid->dim;
+  }
+  if (*bandwidth >= *unknowns) *bandwidth = *unknowns - 1;
+}
+
+double gx_mass_bytes(const struct gx_grid *grid)
+{
+  size_t unknowns, bandwidth;
+  int variants;
+  dimensions(grid, &unknowns, &bandwidth, &variants);
+  return (double)sizeof(double) * (double)unknowns * (double)(bandwidth + 1) * (variants + 1);
+}
+
 struct gx_mass *gx_mass_create(const struct gx_grid *grid)
 {
   struct gx_mass *mass = calloc(1, sizeof *mass);
   if (!mass) return NULL;
   mass->grid = grid;
-  mass->unknowns = 1;
-  mass->variants = 1;
-  for (int d = 0; d < grid->dim; d++) {
-    mass->bandwidth += bandwidth_on_axis(&grid->axis[d]) * mass->unknowns;
-    mass->unknowns *= (size_t)grid->axis[d].functions;
-    if (!grid->axis[d].periodic) mass->variants = grid->dim;
-  }
-  if (mass->bandwidth >= mass->unknowns) mass->bandwidth = mass->unknowns - 1;
+  dimensions(grid, &mass->unknowns, &mass->bandwidth, &mass->variants);
   mass->position = malloc(grid->stored * sizeof *mass->position);
   mass->held = calloc(mass->unknowns, sizeof *mass->held);
   mass->assembled = gsl_matrix_alloc(mass->unknowns, mass->bandwidth + 1);

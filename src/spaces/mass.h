@@ -9,6 +9,8 @@
 
 struct gx_mass;
 
+/* Memory that the band matrices of a grid take. */
+double gx_mass_bytes(const struct gx_grid *grid);
 /* NULL when memory runs out. grid is borrowed. */
 struct gx_mass *gx_mass_create(const struct gx_grid *grid);
 void gx_mass_free(struct gx_mass *mass);

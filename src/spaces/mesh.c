@@ -72,6 +72,14 @@ enum gx_status gx_mesh_create(struct gx_mesh **out, size_t size, const struct gx
   mesh->space = (struct gx_space){.kind = kind, .particles = particles, .posed = posed, .outcome = outcome};
   mesh->options = *options;
   lay_out_grid(mesh);
+  const double most = 4e9; /* bytes; a larger band is a slip, or takes longer to factor than any run should */
+  if (options->consistent && gx_mass_bytes(&mesh->grid) > most) {
+    gx_status_set(outcome, GX_REFUSED, -1,
+                  "the consistent mass matrix would take %.3g GB as a band: use fewer cells, a lower degree, or lumped mass",
+                  1e-9 * gx_mass_bytes(&mesh->grid));
+    free(mesh);
+    return GX_REFUSED;
+  }
   int dim = mesh->grid.dim;
   size_t bytes = place_arrays(mesh, NULL) * sizeof(double);
   mesh->block = aligned_alloc(64, bytes);
