@@ -294,6 +294,51 @@ static void the_last_particle_may_leave_too(void **state)
   }
 }
 
+static int accelerations; /* of the one thread of this test */
+
+static enum gx_status count(struct gx_space *space, double t)
+{
+  accelerations++;
+  const struct gx_space_kind *original = gx_space_find(space->kind->name);
+  return original->accelerate(space, t);
+}
+
+/* Accelerations in a step, after the first; watched: asked for between steps too. */
+static int accelerations_a_step(const struct gx_case *one, bool watched, bool *starts_accelerated)
+{
+  struct rig rig;
+  assert_true(rig_build(&rig, one, NULL, NULL, NULL));
+  struct gx_space_kind kind = *rig.simulation.space->kind;
+  kind.accelerate = count;
+  rig.simulation.space->kind = &kind;
+  for (int k = 0; k < 3; k++) {
+    accelerations = 0;
+    if (watched) assert_int_equal(gx_stepper_accelerate(rig.stepper, k * rig.simulation.dt), GX_OK);
+    assert_int_equal(gx_stepper_step(rig.stepper, k * rig.simulation.dt, rig.simulation.dt), GX_OK);
+  }
+  *starts_accelerated = gx_stepper_starts_accelerated(rig.stepper);
+  rig_free(&rig);
+  return accelerations;
+}
+
+/* Stages are what a step costs; with weights of two positions nothing is reused. */
+static void check_stages(struct gx_case one)
+{
+  const struct gx_clock *clock = gx_clock_find(one.value[GX_METHOD_CLOCK].text);
+  const struct gx_space_kind *kind = gx_space_find(one.value[GX_METHOD_SPACE].text);
+  bool reused;
+  int cost = accelerations_a_step(&one, false, &reused), watched = accelerations_a_step(&one, true, &reused);
+  int expected = clock->stages + (clock->plain_rows && kind->fixed_grid);
+  CHECK(cost == expected, "%s on %s: %d accelerations a step, not %d", clock->name, kind->name, cost, expected);
+  CHECK(watched == cost + !reused, "%s on %s: %d, watched %d", clock->name, kind->name, cost, watched);
+}
+
+static void stages_are_accelerations_a_step(void **state)
+{
+  (void)state;
+  each_method(check_stages);
+}
+
 /* However short the end is beside the step, and however large a phase: the time asked for is run. */
 static void extremes_are_run(void **state)
 {
@@ -323,7 +368,7 @@ int main(void)
       cmocka_unit_test(failures_are_results),
       cmocka_unit_test(extremes_are_run),
       cmocka_unit_test(the_last_particle_may_leave_too),
-
+      cmocka_unit_test(stages_are_accelerations_a_step),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
