@@ -35,7 +35,7 @@ struct gx_clock {
   const char *help;
   const char *source;
   int order;
-  int stages; /* acceleration evaluations per step */
+  int stages; /* acceleration evaluations per step, one that the next step reuses counted once; with plain_rows: by those */
   bool symplectic;
   bool staggered;          /* velocity lives at half steps, starting at -dt/2 */
   bool first_order_defect; /* per-step energy defect by berzins2022 eq. 94, else eq. 88 */
@@ -65,9 +65,12 @@ struct gx_stepper *gx_stepper_create(const struct gx_clock *clock, struct gx_spa
 void gx_stepper_free(struct gx_stepper *stepper);
 /* One step from time t. */
 enum gx_status gx_stepper_step(struct gx_stepper *stepper, double t, double dt);
-/* Acceleration at the current state and time t without advancing; the next step from t reuses it. A step whose last acceleration
- * belongs to its end leaves that for the next one, taken at t plus its drifts: the next t may differ from that by round-off. To
- * continue a run bit for bit, restore the arrays of the space's state and accelerate at that time. */
+/* Acceleration at the current state and time t without advancing; the next step from t reuses it, unless it strains or drifts
+ * first. A step whose last acceleration belongs to its end leaves that for the next one, taken at t plus its drifts: the next t
+ * may differ from that by round-off. To continue a run bit for bit, restore the arrays of the space's state and accelerate at
+ * that time. */
 enum gx_status gx_stepper_accelerate(struct gx_stepper *stepper, double t);
+/* Whether a step starts with the acceleration at its start, and so reuses one that was asked for there. */
+bool gx_stepper_starts_accelerated(const struct gx_stepper *stepper);
 
 #endif

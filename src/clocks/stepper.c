@@ -121,6 +121,13 @@ enum gx_status gx_stepper_accelerate(struct gx_stepper *stepper, double t)
   return GX_OK;
 }
 
+bool gx_stepper_starts_accelerated(const struct gx_stepper *stepper)
+{
+  const struct gx_row *row = stepper->rows;
+  while (row && row->primitive > GX_END && row->primitive < GX_ACCELERATE) row++;
+  return !row || row->primitive == GX_ACCELERATE;
+}
+
 static void observe(const struct gx_stepper *stepper, double weight)
 {
   if (stepper->observer.power && weight != 0) stepper->observer.power(stepper->observer.context, stepper->space, weight);

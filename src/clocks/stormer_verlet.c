@@ -18,7 +18,7 @@ static const struct gx_row plain_rows[] = {
 
 const struct gx_clock gx_stormer_verlet = {
     .name = "stormer-verlet",
-    .help = "velocity Verlet; on a fixed grid with the weights of both ends of the step",
+    .help = "velocity Verlet; on a fixed grid with the weights of both ends of the step, in two stages",
     .source = "berzins2022 §5; Hairer, Lubich & Wanner 2003",
     .order = 2,
     .stages = 1,

@@ -14,16 +14,33 @@ static struct gx_collocation *of(struct gx_space *space)
   return (struct gx_collocation *)space;
 }
 
-static enum gx_status report(struct gx_collocation *c, const struct gx_spline_error *error)
+/* Sites that a spline refuses, in terms of particles. */
+static enum gx_status misplaced(const struct gx_collocation *c, const struct gx_spline_error *error)
 {
-  long particle = error->site - (c->closed ? 1 : 0);
-  if (particle < 0 || particle >= (long)c->n) particle = -1;
-  enum gx_status status = error->status == GX_SPLINE_NOT_INCREASING ? GX_TANGLED
-                          : error->status == GX_SPLINE_OUTSIDE      ? GX_LEFT_DOMAIN
-                          : error->status == GX_SPLINE_MEMORY       ? GX_FAILED
-                          : error->status == GX_SPLINE_SINGULAR     ? GX_SINGULAR
-                                                                    : GX_REFUSED;
-  return gx_status_set(c->space.outcome, status, particle, "%s", error->message);
+  const double *x = c->x + 1;
+  struct gx_outcome *outcome = c->space.outcome;
+  for (size_t p = 0; p < c->n; p++)
+    if (!isfinite(x[p])) return gx_status_set(outcome, GX_UNSTABLE, (long)p, "a particle is at %g", x[p]);
+  for (size_t p = 0; p < c->n && !c->options.periodic; p++)
+    if (c->closed ? !(x[p] > 0 && x[p] < 1) : !(x[p] >= 0 && x[p] <= 1))
+      return gx_status_set(outcome, GX_LEFT_DOMAIN, (long)p, "a particle is at %.6g, past the fixed end at %d", x[p], x[p] > 0.5);
+  for (size_t p = 1; p < c->n; p++)
+    if (!(x[p] > x[p - 1]))
+      return gx_status_set(outcome, GX_TANGLED, (long)p, "a particle at %.17g has met or passed its neighbour at %.17g", x[p],
+                           x[p - 1]);
+  if (c->options.periodic && error->status == GX_SPLINE_OUTSIDE)
+    return gx_status_set(outcome, GX_TANGLED, (long)c->n - 1,
+                         "a particle at %.17g has met or passed the first one's image at %.17g", x[c->n - 1], x[0] + 1);
+  return gx_status_set(outcome, GX_REFUSED, -1, "%s", error->message);
+}
+
+static enum gx_status report(const struct gx_collocation *c, const struct gx_spline_error *error)
+{
+  if (error->status == GX_SPLINE_NOT_INCREASING || error->status == GX_SPLINE_OUTSIDE) return misplaced(c, error);
+  enum gx_status status = error->status == GX_SPLINE_MEMORY     ? GX_FAILED
+                          : error->status == GX_SPLINE_SINGULAR ? GX_SINGULAR
+                                                                : GX_REFUSED;
+  return gx_status_set(c->space.outcome, status, -1, "%s", error->message);
 }
 
 #define SPLINE(c, call)                                                                                                          \
@@ -51,7 +68,13 @@ static enum gx_status create_splines(struct gx_collocation *c)
   int degree = c->options.degree;
   enum gx_spline_ends odd = c->options.periodic ? GX_SPLINE_PERIODIC : c->closed ? GX_SPLINE_OPEN : GX_SPLINE_ODD;
   enum gx_spline_ends even = c->options.periodic ? GX_SPLINE_PERIODIC : c->closed ? GX_SPLINE_OPEN : GX_SPLINE_EVEN;
-  size_t ends = c->stress_at_ends ? 2 : 0, targets = c->n + ends;
+  size_t ends = c->stress_at_ends ? 2 : 0, targets = c->n + ends, least = (size_t)degree + 1;
+  if (c->n + ends < least)
+    return gx_status_set(c->space.outcome, GX_REFUSED, -1, "splines of degree %d need %zu particles or more, and there are %zu",
+                         degree, least - ends, c->n);
+  if (c->nodal && c->nodes < least)
+    return gx_status_set(c->space.outcome, GX_REFUSED, -1, "splines of degree %d need %zu nodes or more, and there are %zu",
+                         degree, least, c->nodes);
   SPLINE(c, gx_spline_interpolant_create(&c->motion, odd, degree, c->n + (c->closed ? 2 : 0), &error));
   SPLINE(c, gx_spline_interpolant_create(&c->stress, even, degree, c->n + ends, &error));
   if (!c->nodal) {
@@ -207,6 +230,14 @@ GX_CLONES static void scale(size_t n, double factor, const double *restrict F, d
     for (size_t p = 0; p < n; p++) a[p] *= factor;
 }
 
+/* at: a particle, or an end behind them */
+static enum gx_status report_tangled(const struct gx_collocation *c, size_t at)
+{
+  const double *F = c->options.reference && !c->options.stress_rate ? c->F : c->space.particles->F[0];
+  if (at < c->n) return gx_status_set(c->space.outcome, GX_TANGLED, (long)at, "det F of a particle is %g", F[at]);
+  return gx_status_set(c->space.outcome, GX_TANGLED, -1, "det F at the end at %zu is %g", at - c->n, F[at]);
+}
+
 enum gx_status gx_collocation_accelerate(struct gx_space *space, double t)
 {
   struct gx_collocation *c = of(space);
@@ -223,8 +254,7 @@ enum gx_status gx_collocation_accelerate(struct gx_space *space, double t)
   } else if (!c->options.stress_rate) {
     tangled = stress_from(c, c->n, F, P);
   }
-  if (tangled >= 0)
-    return gx_status_set(space->outcome, GX_TANGLED, tangled < (long)c->n ? tangled : -1, "det F is not a positive number");
+  if (tangled >= 0) return report_tangled(c, (size_t)tangled);
   diverge(c, c->stress_at_ends ? c->P : P);
   scale(c->n, 1 / density, !c->options.reference && !c->options.papers_divergence ? F : NULL, c->a);
   if (!posed->problem->body) return GX_OK;

@@ -217,7 +217,8 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                          .choice = gx_rules_frame_choice,
                          .standard = "reference",
                          .applies = gx_rules_is_collocation,
-                         .help = "sites of the splines: particles where they are, or where they were; spline spaces",
+                         .help = "sites of the splines: particles where they are now (current) or where they were undeformed "
+                                 "(reference); spline spaces",
                          .why = "reference: nothing crosses, and the order is kept; the papers' is current"},
     [GX_METHOD_CLOSURE] = {.path = "method.closure",
                            .type = GX_TEXT,
@@ -225,7 +226,8 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                            .choice = gx_rules_closure_choice,
                            .applies = gx_rules_closure_applies,
                            .resolve = gx_rules_closure_default,
-                           .help = "fixed ends: as in the papers, or by mirror images; spline spaces between fixed ends",
+                           .help = "fixed ends: zeros of u and v there (papers), or mirror images of all fields (symmetric); "
+                                   "spline spaces between fixed ends",
                            .why = "symmetric is stable at every degree; papers in the current frame, to compare"},
     [GX_METHOD_DIVERGENCE] = {.path = "method.divergence",
                               .type = GX_TEXT,

@@ -55,6 +55,22 @@ static void write_value(FILE *out, const struct gx_parameter *parameter, const s
   }
 }
 
+/* The default of a choice of method that only other spaces have, or the current frame alone, so that a reader learns of it. */
+static struct gx_value default_elsewhere(const struct gx_problem *problem, int id)
+{
+  const struct gx_parameter *space = &gx_parameters[GX_METHOD_SPACE];
+  const bool method = !strncmp(gx_parameters[id].path, "method.", strlen("method."));
+  for (int i = 0; method && !problem->space && space->choice(i); i++)
+    for (int current = 0; current < 2; current++) {
+      struct gx_value value[GX_PARAMETERS] = {[GX_PROBLEM_NAME] = {.type = GX_TEXT, .text = problem->name},
+                                              [GX_METHOD_SPACE] = {.type = GX_TEXT, .text = space->choice(i)}};
+      if (current) value[GX_METHOD_FRAME] = (struct gx_value){.type = GX_TEXT, .text = "current"};
+      gx_parameter_resolve(value);
+      if (value[id].type != GX_NULL) return value[id];
+    }
+  return (struct gx_value){0};
+}
+
 int gx_starter_write(FILE *out, const struct gx_problem *problem)
 {
   struct gx_value value[GX_PARAMETERS] = {[GX_PROBLEM_NAME] = {.type = GX_TEXT, .text = problem->name}};
@@ -70,7 +86,10 @@ int gx_starter_write(FILE *out, const struct gx_problem *problem)
   for (int id = 0; id < GX_PARAMETERS; id++) {
     const struct gx_parameter *parameter = &gx_parameters[id];
     size_t length = strcspn(parameter->path, ".");
-    if (value[id].type == GX_NULL && parameter->applies) continue;
+    if (value[id].type == GX_NULL && parameter->applies) {
+      value[id] = default_elsewhere(problem, id);
+      if (value[id].type == GX_NULL) continue;
+    }
     if (strncmp(section, parameter->path, length + 1)) fprintf(out, "\n%.*s:\n", (int)length, parameter->path);
     section = parameter->path;
     write_comment(out, parameter);

@@ -68,6 +68,8 @@ class Help(Case):
         for problem in problems:
             starter = self.call("init", problem)
             self.assertIn("1 case", self.call("check", "-", input=starter.stdout.encode()).stdout)
+            for key in ["frame: reference", "divergence: exact"]:
+                self.assertEqual("# " + key in starter.stdout, problem != "oscillator")
 
 
 class Usage(Case):

@@ -224,7 +224,7 @@ static void failures_are_results(void **state)
   const struct {
     enum gx_status status;
     bool names_particle;
-    const char *set[6];
+    const char *set[8];
   } failing[] = {
       {GX_TANGLED, true, {"method.basis=linear", "mesh.cells=64", "time.cfl=3"}},
       {GX_TANGLED, true, {"method.basis=cpgimp", "mesh.particles_per_cell=1"}},
@@ -240,6 +240,20 @@ static void failures_are_results(void **state)
         "time.periods=20"}},
       {GX_SINGULAR, false, {"method.mass=consistent", "method.basis=linear", "mesh.particles_per_cell=1", "problem.amplitude=0"}},
       {GX_SINGULAR, false, {"method.mass=consistent", "method.degree=3", "mesh.particles_per_cell=1", "problem.amplitude=0"}},
+      {GX_LEFT_DOMAIN,
+       true,
+       {"problem.name=bar-linear", "method.space=spline-particle", "method.frame=current", "time.cfl=8", "mesh.cells=10",
+        "time.periods=4"}},
+      {GX_LEFT_DOMAIN,
+       true,
+       {"problem.name=bar-linear", "method.space=spline-grid", "method.frame=current", "method.closure=symmetric", "time.cfl=8",
+        "mesh.cells=10", "time.periods=4"}},
+      {GX_TANGLED,
+       true,
+       {"method.space=spline-particle", "method.frame=current", "method.degree=9", "mesh.layout=gauss", "problem.amplitude=0.12",
+        "time.periods=4"}},
+      {GX_REFUSED, false, {"method.space=spline-grid", "method.degree=9", "mesh.cells=8"}},
+      {GX_REFUSED, false, {"method.space=spline-particle", "method.degree=9", "mesh.cells=2"}},
       {GX_REFUSED, false, {"problem.amplitude=0.2"}},
       {GX_REFUSED, false, {"method.basis=cpgimp", "method.space=moving-mesh"}},
       {GX_REFUSED, false, {"method.clock=rk4", "method.transfer=pic"}},
@@ -252,9 +266,77 @@ static void failures_are_results(void **state)
     CHECK(result.outcome.status == failing[i].status, "case %zu: %s, %s, particle %ld, after %g steps", i,
           gx_status_name(result.outcome.status), result.outcome.reason, result.outcome.particle, result.steps);
     assert_true(*result.outcome.reason);
+    CHECK(!strstr(result.outcome.reason, "site"), "case %zu speaks of splines, not particles: %s", i, result.outcome.reason);
     assert_int_equal(result.outcome.particle >= 0, failing[i].names_particle);
     gx_case_free(&result);
   }
+}
+
+/* The last particle of the bar, pushed past the end. */
+static void push(struct gx_particles *particles, void *context)
+{
+  (void)context;
+  particles->v[0][particles->n - 1] = 1e4;
+}
+
+static void the_last_particle_may_leave_too(void **state)
+{
+  (void)state;
+  const char *const closure[] = {"method.closure=papers", "method.closure=symmetric"};
+  for (int i = 0; i < 2; i++) {
+    struct gx_case one = case_of("problem.name=bar-linear", "method.space=spline-particle", "method.frame=current", closure[i],
+                                 "method.clock=rk4");
+    struct rig rig;
+    assert_true(rig_build(&rig, &one, NULL, push, NULL));
+    assert_int_equal(gx_stepper_step(rig.stepper, 0, rig.simulation.dt), GX_LEFT_DOMAIN);
+    assert_int_equal(rig.outcome.particle, rig.simulation.particles->n - 1);
+    rig_free(&rig);
+  }
+}
+
+static int accelerations; /* of the one thread of this test */
+
+static enum gx_status count(struct gx_space *space, double t)
+{
+  accelerations++;
+  const struct gx_space_kind *original = gx_space_find(space->kind->name);
+  return original->accelerate(space, t);
+}
+
+/* Accelerations in a step, after the first; watched: asked for between steps too. */
+static int accelerations_a_step(const struct gx_case *one, bool watched, bool *starts_accelerated)
+{
+  struct rig rig;
+  assert_true(rig_build(&rig, one, NULL, NULL, NULL));
+  struct gx_space_kind kind = *rig.simulation.space->kind;
+  kind.accelerate = count;
+  rig.simulation.space->kind = &kind;
+  for (int k = 0; k < 3; k++) {
+    accelerations = 0;
+    if (watched) assert_int_equal(gx_stepper_accelerate(rig.stepper, k * rig.simulation.dt), GX_OK);
+    assert_int_equal(gx_stepper_step(rig.stepper, k * rig.simulation.dt, rig.simulation.dt), GX_OK);
+  }
+  *starts_accelerated = gx_stepper_starts_accelerated(rig.stepper);
+  rig_free(&rig);
+  return accelerations;
+}
+
+/* Stages are what a step costs; with weights of two positions nothing is reused. */
+static void check_stages(struct gx_case one)
+{
+  const struct gx_clock *clock = gx_clock_find(one.value[GX_METHOD_CLOCK].text);
+  const struct gx_space_kind *kind = gx_space_find(one.value[GX_METHOD_SPACE].text);
+  bool reused;
+  int cost = accelerations_a_step(&one, false, &reused), watched = accelerations_a_step(&one, true, &reused);
+  int expected = clock->stages + (clock->plain_rows && kind->fixed_grid);
+  CHECK(cost == expected, "%s on %s: %d accelerations a step, not %d", clock->name, kind->name, cost, expected);
+  CHECK(watched == cost + !reused, "%s on %s: %d, watched %d", clock->name, kind->name, cost, watched);
+}
+
+static void stages_are_accelerations_a_step(void **state)
+{
+  (void)state;
+  each_method(check_stages);
 }
 
 /* However short the end is beside the step, and however large a phase: the time asked for is run. */
@@ -277,10 +359,16 @@ int main(void)
 {
   gsl_set_error_handler_off();
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(every_method_ends_well),         cmocka_unit_test(measuring_more_changes_nothing),
-      cmocka_unit_test(repetition_gives_the_same_bits), cmocka_unit_test(a_wave_along_one_axis_is_the_bar),
-      cmocka_unit_test(spaces_agree_on_shear),          cmocka_unit_test(gradients_multiply_from_the_left),
-      cmocka_unit_test(failures_are_results),           cmocka_unit_test(extremes_are_run),
+      cmocka_unit_test(every_method_ends_well),
+      cmocka_unit_test(measuring_more_changes_nothing),
+      cmocka_unit_test(repetition_gives_the_same_bits),
+      cmocka_unit_test(a_wave_along_one_axis_is_the_bar),
+      cmocka_unit_test(spaces_agree_on_shear),
+      cmocka_unit_test(gradients_multiply_from_the_left),
+      cmocka_unit_test(failures_are_results),
+      cmocka_unit_test(extremes_are_run),
+      cmocka_unit_test(the_last_particle_may_leave_too),
+      cmocka_unit_test(stages_are_accelerations_a_step),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
