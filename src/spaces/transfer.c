@@ -63,6 +63,12 @@ GX_CORE struct row row_of(const int dim, const struct gx_weights *w, const struc
       ONE_CASE(1, 2, core, __VA_ARGS__)                                                                                          \
       ONE_CASE(1, 3, core, __VA_ARGS__)                                                                                          \
       ONE_CASE(1, 4, core, __VA_ARGS__)                                                                                          \
+      ONE_CASE(1, 5, core, __VA_ARGS__)                                                                                          \
+      ONE_CASE(1, 6, core, __VA_ARGS__)                                                                                          \
+      ONE_CASE(1, 7, core, __VA_ARGS__)                                                                                          \
+      ONE_CASE(1, 8, core, __VA_ARGS__)                                                                                          \
+      ONE_CASE(1, 9, core, __VA_ARGS__)                                                                                          \
+      ONE_CASE(1, 10, core, __VA_ARGS__)                                                                                         \
       ONE_CASE(2, 2, core, __VA_ARGS__)                                                                                          \
       ONE_CASE(2, 3, core, __VA_ARGS__)                                                                                          \
       ONE_CASE(2, 4, core, __VA_ARGS__)                                                                                          \
