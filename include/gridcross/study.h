@@ -44,7 +44,7 @@ struct gx_result {
   double dt;        /* s */
   double steps;     /* taken */
   double time;      /* s, reached */
-  double stable_dt; /* s, estimated at the start; NaN: unknown */
+  double stable_dt; /* s, estimated at the start; 0: no step is stable; NaN: unknown */
   struct gx_measured measured;
   double reference[GX_QUANTITIES][GX_NORMS]; /* final state less that of dt / output.reference; NaN: not asked */
   double seconds;                            /* processor time of the steps, measures excluded */
@@ -57,7 +57,7 @@ struct gx_plan {
   struct gx_outcome outcome; /* GX_REFUSED with the reason when it cannot run */
   double dt, end;            /* s */
   double steps, particles;   /* numbers of them */
-  double stable_dt;          /* s; NaN: unknown */
+  double stable_dt;          /* s; 0: no step is stable; NaN: unknown */
   double growth;             /* largest real part of the eigenvalues at the start, 1/s; NaN: unknown */
 };
 

@@ -33,6 +33,8 @@ static int put_plan(struct gx_table *table, size_t row, const struct gx_plan *pl
   bool grows = !refused && plan->growth * plan->end > 5; /* by a factor of 150 */
   if (refused)
     snprintf(note, sizeof note, "%s: %s", gx_status_name(plan->outcome.status), plan->outcome.reason);
+  else if (plan->stable_dt == 0)
+    snprintf(note, sizeof note, "no dt is stable: this clock drifts against kicks not yet projected; use projection once");
   else if (above)
     snprintf(note, sizeof note, "dt is above the stable dt");
   else if (grows)

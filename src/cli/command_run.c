@@ -135,10 +135,15 @@ static int print_table(const struct gx_options *options, const struct gx_study *
 static void warn_unstable(const struct gx_study *study, const struct gx_result *results)
 {
   size_t above = 0;
-  for (size_t i = 0; i < study->count; i++)
-    if (results[i].dt > results[i].stable_dt && above++ < 10)
+  for (size_t i = 0; i < study->count; i++) {
+    if (!(results[i].dt > results[i].stable_dt) || above++ >= 10) continue;
+    if (results[i].stable_dt == 0)
+      fprintf(stderr, "warning: case %s: no time step is stable for this clock with projection each-step; use projection once\n",
+              study->cases[i].id);
+    else
       fprintf(stderr, "warning: case %s: dt = %.4g s is above the largest stable step, about %.4g s\n", study->cases[i].id,
               results[i].dt, results[i].stable_dt);
+  }
   if (above > 10) fprintf(stderr, "warning: and %zu cases more\n", above - 10);
 }
 

@@ -14,7 +14,7 @@ static const struct gx_splitting splitting = {
 
 const struct gx_clock gx_pefrl = {
     .name = "pefrl",
-    .help = "four stages, position-extended Forest-Ruth-like",
+    .help = "four stages, position-extended Forest-Ruth-like; grows slowly at any step with projection each-step",
     .source = "Omelyan, Mryglod & Folk 2002, Comput. Phys. Commun. 146",
     .order = 4,
     .stages = 4,

@@ -10,7 +10,7 @@ static const struct gx_splitting splitting = {
 
 const struct gx_clock gx_rkn3 = {
     .name = "rkn3",
-    .help = "three stages, one drift backwards",
+    .help = "three stages, one drift backwards; grows at any step with projection each-step",
     .source = "Ruth 1983",
     .order = 3,
     .stages = 3,

@@ -61,7 +61,7 @@ static void put_case(struct cursor *at, const struct gx_case *one, const struct 
   for (int p = 0; p < GX_PARAMETERS; p++)
     put(at, gx_parameters[p].path, gx_parameters[p].unit, gx_parameters[p].type, one->value[p]);
   put_text(at, "result.status", gx_status_name(status));
-  put_text(at, "result.reason", ok ? "" : result->outcome.reason);
+  put_text(at, "result.reason", result->outcome.reason);
   put_count(at, "result.particle", ok || result->outcome.particle < 0 ? NAN : (double)result->outcome.particle);
   put_real(at, "result.dt", "s", ran ? result->dt : NAN);
   put_count(at, "result.steps", ran ? result->steps : NAN);
