@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cyclic banded systems by a border of the band. */
 #include "spline_border.h"
+#include "spline_basis.h"
 
 #include <float.h>
 #include <gsl/gsl_linalg.h>
@@ -114,11 +115,12 @@ long gx_spline_border_factor(struct gx_spline_border *border, const struct gx_sp
 }
 
 /* x_1 -= (B^-1 V) x_2 */
-static void subtract(size_t m, size_t w, const double *restrict right, const double *restrict end, double *restrict x)
+GX_SPLINE_CORE void subtract(const int width, size_t m, const double *restrict right, const double *restrict end,
+                             double *restrict x)
 {
   for (size_t i = 0; i < m; i++) {
     double sum = 0;
-    for (size_t r = 0; r < w; r++) sum += right[i * w + r] * end[r];
+    for (int r = 0; r < width; r++) sum += right[i * (size_t)width + (size_t)r] * end[r];
     x[i] -= sum;
   }
 }
@@ -149,10 +151,11 @@ void gx_spline_border_solve(const struct gx_spline_border *border, const struct 
       x[(m + r) * count + s] = sum;
     }
   }
-  if (count == 1)
-    subtract(m, w, border->right, x + m, x);
-  else
-    for (size_t i = 0; i < m; i++)
-      for (size_t r = 0; r < w; r++)
-        for (size_t s = 0; s < count; s++) x[i * count + s] -= border->right[i * w + r] * x[(m + r) * count + s];
+  if (count == 1) {
+    GX_SPLINE_FOR_DEGREE((int)w, subtract(degree, m, border->right, x + m, x))
+    return;
+  }
+  for (size_t i = 0; i < m; i++)
+    for (size_t r = 0; r < w; r++)
+      for (size_t s = 0; s < count; s++) x[i * count + s] -= border->right[i * w + r] * x[(m + r) * count + s];
 }
