@@ -48,8 +48,8 @@ static inline bool rig_build(struct rig *rig, const struct gx_case *one, const s
   simulation->problem->exact(simulation->posed, 0, particles->u, NULL, particles->F);
   simulation->problem->exact(simulation->posed, start, NULL, particles->v, NULL);
   if (alter) alter(particles, context);
-  enum gx_status status =
-      simulation->kind->create(&simulation->space, &simulation->space_options, particles, simulation->posed, &rig->outcome);
+  enum gx_status status = simulation->kind->create(simulation->kind, &simulation->space, &simulation->space_options, particles,
+                                                   simulation->posed, &rig->outcome);
   CHECK(status == GX_OK, "%s", rig->outcome.reason);
   rig->stepper = gx_stepper_create(simulation->clock, simulation->space, NULL);
   return true;

@@ -63,10 +63,11 @@ struct gx_space_kind {
   const char *source;
   bool fixed_grid;  /* particles move through the grid: projection each step by default, crossings counted */
   bool collocation; /* strong form on splines: method.degree, frame, closure, divergence; no basis, mass or transfer */
+  bool nodal;       /* collocation by way of the grid's nodes */
   bool of_problem;  /* the equations of one problem, not a choice of method.space */
   /* Builds the space on particles and a posed problem (both borrowed, particles already in their initial state). */
-  enum gx_status (*create)(struct gx_space **space, const struct gx_space_options *options, struct gx_particles *particles,
-                           const struct gx_posed *posed, struct gx_outcome *outcome);
+  enum gx_status (*create)(const struct gx_space_kind *kind, struct gx_space **space, const struct gx_space_options *options,
+                           struct gx_particles *particles, const struct gx_posed *posed, struct gx_outcome *outcome);
   void (*free)(struct gx_space *space);
   /* The primitives above: weights, projection, acceleration at time t; then kick, strain and drift in that order, each by its own
    * time span in s, where 0 skips it. */

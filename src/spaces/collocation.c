@@ -163,7 +163,7 @@ static long stress_from(struct gx_collocation *c, size_t points, double *F, doub
   return posed->problem->material->piola(&posed->options.moduli, 1, points, &F, &P);
 }
 
-enum gx_status gx_collocation_create(struct gx_space **space, const struct gx_space_kind *kind, bool nodal,
+enum gx_status gx_collocation_create(const struct gx_space_kind *kind, struct gx_space **space,
                                      const struct gx_space_options *options, struct gx_particles *particles,
                                      const struct gx_posed *posed, struct gx_outcome *outcome)
 {
@@ -184,7 +184,7 @@ enum gx_status gx_collocation_create(struct gx_space **space, const struct gx_sp
       .kind = kind, .particles = particles, .posed = posed, .outcome = outcome, .through_cells = !options->reference};
   c->options = *options;
   c->n = particles->n;
-  c->nodal = nodal;
+  c->nodal = kind->nodal;
   c->nodes = (size_t)options->cells[0] + !options->periodic;
   c->closed = closed;
   c->stress_at_ends = closed && options->reference;

@@ -40,7 +40,7 @@ struct gx_collocation {
   double *block;
 };
 
-enum gx_status gx_collocation_create(struct gx_space **space, const struct gx_space_kind *kind, bool nodal,
+enum gx_status gx_collocation_create(const struct gx_space_kind *kind, struct gx_space **space,
                                      const struct gx_space_options *options, struct gx_particles *particles,
                                      const struct gx_posed *posed, struct gx_outcome *outcome);
 void gx_collocation_free(struct gx_space *space);

@@ -10,12 +10,11 @@
 #include "../core/kernel.h"
 #include "../core/vector.h"
 
-static enum gx_status create(struct gx_space **space, const struct gx_space_options *options, struct gx_particles *particles,
-                             const struct gx_posed *posed, struct gx_outcome *outcome)
+static enum gx_status create(const struct gx_space_kind *kind, struct gx_space **space, const struct gx_space_options *options,
+                             struct gx_particles *particles, const struct gx_posed *posed, struct gx_outcome *outcome)
 {
-  extern const struct gx_space_kind gx_moving_mesh;
   struct gx_mesh *mesh = NULL;
-  GX_TRY(gx_mesh_create(&mesh, sizeof *mesh, &gx_moving_mesh, options, particles, posed, outcome));
+  GX_TRY(gx_mesh_create(&mesh, sizeof *mesh, kind, options, particles, posed, outcome));
   *space = &mesh->space;
   posed->problem->material->piola(&posed->options.moduli, particles->dim, particles->n, particles->F, particles->P);
   GX_TRY(gx_mesh_weigh(mesh, NULL, NULL));

@@ -12,15 +12,13 @@ struct oscillator {
   double opened; /* y of GX_OPEN */
 };
 
-static enum gx_status create(struct gx_space **out, const struct gx_space_options *options, struct gx_particles *particles,
-                             const struct gx_posed *posed, struct gx_outcome *outcome)
+static enum gx_status create(const struct gx_space_kind *kind, struct gx_space **out, const struct gx_space_options *options,
+                             struct gx_particles *particles, const struct gx_posed *posed, struct gx_outcome *outcome)
 {
   (void)options;
-  extern const struct gx_space_kind gx_oscillator_equations;
   struct oscillator *oscillator = calloc(1, sizeof *oscillator);
   if (!oscillator) return gx_status_set(outcome, GX_FAILED, -1, "out of memory");
-  oscillator->space =
-      (struct gx_space){.kind = &gx_oscillator_equations, .particles = particles, .posed = posed, .outcome = outcome};
+  oscillator->space = (struct gx_space){.kind = kind, .particles = particles, .posed = posed, .outcome = outcome};
   particles->m[0] = 2; /* the kinetic part of H is v^2 */
   posed->problem->material->piola(&posed->options.moduli, 1, 1, particles->F, particles->P);
   particles->F[0][0] = 1;

@@ -3,19 +3,13 @@
  * at fixed ends, and splined from there to the particles; the velocity goes to the nodes and its gradient back likewise. */
 #include "collocation.h"
 
-static enum gx_status create(struct gx_space **space, const struct gx_space_options *options, struct gx_particles *particles,
-                             const struct gx_posed *posed, struct gx_outcome *outcome)
-{
-  extern const struct gx_space_kind gx_spline_grid;
-  return gx_collocation_create(space, &gx_spline_grid, true, options, particles, posed, outcome);
-}
-
 const struct gx_space_kind gx_spline_grid = {
     .name = "spline-grid",
     .help = "strong form, splines through the particles and through the nodes",
     .source = "berzins2021 §8",
     .collocation = true,
-    .create = create,
+    .nodal = true,
+    .create = gx_collocation_create,
     .free = gx_collocation_free,
     .weights = gx_collocation_weights,
     .project = gx_collocation_project,

@@ -3,19 +3,12 @@
  * their acceleration, that of the spline through their velocity the velocity gradient. */
 #include "collocation.h"
 
-static enum gx_status create(struct gx_space **space, const struct gx_space_options *options, struct gx_particles *particles,
-                             const struct gx_posed *posed, struct gx_outcome *outcome)
-{
-  extern const struct gx_space_kind gx_spline_particle;
-  return gx_collocation_create(space, &gx_spline_particle, false, options, particles, posed, outcome);
-}
-
 const struct gx_space_kind gx_spline_particle = {
     .name = "spline-particle",
     .help = "strong form, splines through the particles, no grid",
     .source = "berzins2021 §8",
     .collocation = true,
-    .create = create,
+    .create = gx_collocation_create,
     .free = gx_collocation_free,
     .weights = gx_collocation_weights,
     .project = gx_collocation_project,

@@ -19,12 +19,11 @@ static enum gx_status project(struct gx_space *space)
   return gx_mesh_assemble(mesh, mesh->options.each_step ? space->particles->v : NULL, mesh->v);
 }
 
-static enum gx_status create(struct gx_space **space, const struct gx_space_options *options, struct gx_particles *particles,
-                             const struct gx_posed *posed, struct gx_outcome *outcome)
+static enum gx_status create(const struct gx_space_kind *kind, struct gx_space **space, const struct gx_space_options *options,
+                             struct gx_particles *particles, const struct gx_posed *posed, struct gx_outcome *outcome)
 {
-  extern const struct gx_space_kind gx_standard;
   struct gx_mesh *mesh = NULL;
-  GX_TRY(gx_mesh_create(&mesh, sizeof *mesh, &gx_standard, options, particles, posed, outcome));
+  GX_TRY(gx_mesh_create(&mesh, sizeof *mesh, kind, options, particles, posed, outcome));
   *space = &mesh->space;
   (*space)->through_cells = true;
   posed->problem->material->piola(&posed->options.moduli, particles->dim, particles->n, particles->F, particles->P);

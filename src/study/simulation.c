@@ -137,7 +137,8 @@ enum gx_status gx_simulation_build(struct gx_simulation *simulation, struct gx_o
   simulation->problem->exact(simulation->posed, 0, particles->u, NULL, particles->F);
   double start = simulation->clock->staggered ? -0.5 * simulation->dt : 0;
   simulation->problem->exact(simulation->posed, start, NULL, particles->v, NULL);
-  return simulation->kind->create(&simulation->space, &simulation->space_options, particles, simulation->posed, outcome);
+  return simulation->kind->create(simulation->kind, &simulation->space, &simulation->space_options, particles, simulation->posed,
+                                  outcome);
 }
 
 void gx_simulation_free(struct gx_simulation *simulation)

@@ -143,8 +143,8 @@ static void set_up(struct oscillator *oscillator, const struct gx_clock *clock)
   oscillator->posed = gx_problem_pose(problem, &options, 1, oscillator->particles->X);
   oscillator->posed->problem->exact(oscillator->posed, 0, oscillator->particles->u, oscillator->particles->v,
                                     oscillator->particles->F);
-  assert_int_equal(gx_space_find(problem->space)
-                       ->create(&oscillator->space, &none, oscillator->particles, oscillator->posed, &oscillator->outcome),
+  const struct gx_space_kind *kind = gx_space_find(problem->space);
+  assert_int_equal(kind->create(kind, &oscillator->space, &none, oscillator->particles, oscillator->posed, &oscillator->outcome),
                    GX_OK);
   oscillator->stepper = gx_stepper_create(clock, oscillator->space, NULL);
   assert_non_null(oscillator->stepper);
