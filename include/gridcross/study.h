@@ -32,6 +32,8 @@ struct gx_study {
 /* Reads a run file ("-": standard input), applies `--set` strings "path=value" in order, validates and expands.
  * Every error goes to `errors` in one pass as file:line:column: message. Returns NULL when there was one. */
 struct gx_study *gx_runfile_read(const char *path, size_t sets, const char *const *set, FILE *errors);
+/* The same of a text; name: what messages call it. */
+struct gx_study *gx_runfile_parse(const char *name, const char *text, FILE *errors);
 void gx_runfile_free(struct gx_study *study);
 
 struct gx_history {

@@ -8,7 +8,7 @@
 #include "options.h"
 
 extern const struct gx_command gx_command_run, gx_command_check, gx_command_init, gx_command_compare, gx_command_plot,
-    gx_command_list;
+    gx_command_list, gx_command_paper;
 
 #define GX_COMMAND_SET                                                                                                           \
   {                                                                                                                              \
@@ -28,6 +28,9 @@ struct gx_command_studies {
 /* Returns 0, or an exit code after a message; to be freed in either case. */
 int gx_command_studies_read(struct gx_command_studies *studies, const struct gx_options *options, size_t count);
 void gx_command_studies_free(struct gx_command_studies *studies);
+
+/* Threads that --jobs asks for, or 0 after a message. */
+size_t gx_command_jobs(const struct gx_options *options);
 
 /* Exit code after saying that memory ran out. */
 int gx_command_no_memory(void);

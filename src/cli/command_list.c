@@ -8,6 +8,7 @@
 #include <gridcross/basis.h>
 #include <gridcross/clock.h>
 #include <gridcross/material.h>
+#include <gridcross/paper.h>
 #include <gridcross/problem.h>
 #include <gridcross/space.h>
 
@@ -114,11 +115,23 @@ static void list_parameters(void)
   }
 }
 
+static void list_papers(void)
+{
+  for (size_t i = 0; i < gx_paper_item_count; i++) {
+    char name[GX_PAPER_NAME_LENGTH];
+    struct gx_study *study = gx_paper_study(&gx_paper_items[i], stderr);
+    gx_paper_name(&gx_paper_items[i], name);
+    printf("%s\n", name);
+    if (study) print_text(study->title);
+    gx_runfile_free(study);
+  }
+}
+
 static const struct {
   const char *name;
   void (*list)(void);
-} topic[] = {{"spaces", list_spaces},     {"bases", list_bases},         {"clocks", list_clocks},
-             {"problems", list_problems}, {"materials", list_materials}, {"parameters", list_parameters}};
+} topic[] = {{"spaces", list_spaces},       {"bases", list_bases},           {"clocks", list_clocks}, {"problems", list_problems},
+             {"materials", list_materials}, {"parameters", list_parameters}, {"papers", list_papers}};
 
 enum { TOPICS = sizeof topic / sizeof *topic };
 
@@ -147,10 +160,11 @@ static int run(const struct gx_options *options)
 
 const struct gx_command gx_command_list = {
     .name = "list",
-    .operands = "[spaces|bases|clocks|problems|materials|parameters]",
+    .operands = "[spaces|bases|clocks|problems|materials|parameters|papers]",
     .least = 0,
     .most = 1,
-    .help = "List the methods that can be combined, or the parameters of run files; without argument all of them.",
+    .help =
+        "List the methods that can be combined, the parameters of run files, or the papers' items; without argument all of them.",
     .option = option,
     .run = run,
 };

@@ -50,21 +50,6 @@ static char *choose_directory(const struct gx_options *options)
   return directory;
 }
 
-/* Threads, or 0 after a message. */
-static size_t choose_jobs(const struct gx_options *options)
-{
-  const char *given = gx_options_value(options, "jobs");
-  char *end;
-  if (!given) {
-    long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    return processors > 0 ? (size_t)processors : 1;
-  }
-  long jobs = strtol(given, &end, 10);
-  if (end != given && !*end && jobs >= 1 && jobs <= 4096) return (size_t)jobs;
-  fprintf(stderr, "gridcross run: -j takes a number from 1 to 4096, not '%s'\n", given);
-  return 0;
-}
-
 static double now(void)
 {
   struct timespec t;
@@ -191,7 +176,7 @@ static int run(const struct gx_options *options)
     fputs("gridcross run: --csv or --json, not both\n", stderr);
     return GX_EXIT_USAGE;
   }
-  size_t jobs = choose_jobs(options);
+  size_t jobs = gx_command_jobs(options);
   char *directory = jobs ? choose_directory(options) : NULL;
   struct gx_study *study = directory ? gx_command_read(options) : NULL;
   int code = GX_EXIT_USAGE;

@@ -70,27 +70,45 @@ static void read_study(struct gx_settings *settings, size_t length, size_t sets,
   errors->out_of_memory |= !settings->study->title;
 }
 
-struct gx_study *gx_runfile_read(const char *path, size_t sets, const char *const *set, FILE *out)
+/* source: owned, NULL when reading it has failed. */
+static struct gx_study *read_text(const char *name, char *source, size_t length, size_t sets, const char *const *set,
+                                  struct gx_errors *errors, FILE *out)
 {
-  struct gx_errors errors = {.count = 0};
   struct gx_study *study = calloc(1, sizeof *study);
   if (study) {
-    struct gx_settings settings = {.errors = &errors, .study = study, .base.place = {.line = 1, .column = 1}};
+    struct gx_settings settings = {.errors = errors, .study = study, .base.place = {.line = 1, .column = 1}};
     settings.base.tail = &settings.base.first;
     settings.cases_tail = &settings.cases;
-    size_t length = 0;
-    study->source = read_source(path, &errors, &length);
-    if (study->source) read_study(&settings, length, sets, set);
+    study->source = source;
+    if (source) read_study(&settings, length, sets, set);
     gx_arena_free(&settings.arena);
-  } else
-    errors.out_of_memory = true;
-  if (errors.count || errors.out_of_memory) {
-    gx_errors_print(&errors, strcmp(path, "-") ? path : "<stdin>", set, out);
+  } else {
+    errors->out_of_memory = true;
+    free(source);
+  }
+  if (errors->count || errors->out_of_memory) {
+    gx_errors_print(errors, name, set, out);
     gx_runfile_free(study);
     study = NULL;
   }
-  gx_errors_free(&errors);
+  gx_errors_free(errors);
   return study;
+}
+
+struct gx_study *gx_runfile_read(const char *path, size_t sets, const char *const *set, FILE *out)
+{
+  struct gx_errors errors = {.count = 0};
+  size_t length = 0;
+  char *source = read_source(path, &errors, &length);
+  return read_text(strcmp(path, "-") ? path : "<stdin>", source, length, sets, set, &errors, out);
+}
+
+struct gx_study *gx_runfile_parse(const char *name, const char *text, FILE *out)
+{
+  struct gx_errors errors = {.count = 0};
+  char *source = strdup(text);
+  errors.out_of_memory = !source;
+  return read_text(name, source, strlen(text), 0, NULL, &errors, out);
 }
 
 void gx_runfile_free(struct gx_study *study)

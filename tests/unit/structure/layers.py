@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Includes point one way: core <- bases, materials, problems <- spaces <- clocks <- measures <- study <- store, view <- cli.
+"""Includes point one way: core <- bases, materials, problems <- spaces <- clocks <- measures <- study <- papers, store, view <- cli.
 
 usage: layers.py SOURCE_ROOT"""
 import pathlib
 import re
 import sys
 
-LAYERS = [["core"], ["bases", "materials", "problems"], ["spaces"], ["clocks"], ["measures"], ["study"], ["store", "view"], ["cli"]]
+LAYERS = [["core"], ["bases", "materials", "problems"], ["spaces"], ["clocks"], ["measures"], ["study"], ["papers", "store", "view"], ["cli"]]
 RANK = {folder: rank for rank, folders in enumerate(LAYERS) for folder in folders}
 # The folder that implements each public header.
 HOME = {
     "status": "core", "particles": "core", "grid": "core", "value": "core", "table": "core", "build": "core", "suggest": "core",
     "basis": "bases", "material": "materials", "problem": "problems", "space": "spaces", "clock": "clocks",
-    "measure": "measures", "parameter": "study", "study": "study", "store": "store", "compare": "view", "plot": "view", "starter": "view",
+    "measure": "measures", "paper": "papers", "parameter": "study", "study": "study", "store": "store", "compare": "view", "plot": "view", "starter": "view",
 }
 # Libraries that one file each may see.
 ONCE = {"yaml.h": [], "hdf5.h": [], "fftw3.h": []}

@@ -1,0 +1,333 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* gridcross paper: published tables and figures beside ours. */
+#include "command.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <gridcross/paper.h>
+#include <gridcross/store.h>
+
+#include "../core/nearest.h"
+#include "../view/sheet.h"
+
+static const struct gx_option option[] = {
+    {0, "list", NULL, "name the items and what they are"},
+    {'o', "output", "DIR", "keep each item's study there, and draw its figure"},
+    {'j', "jobs", "N", "cases run at once; default: the number of processors"},
+    {0, "csv", NULL, "print all rows as CSV"},
+    {0, "json", NULL, "print all rows as JSON"},
+    {'q', "quiet", NULL, "no progress on standard error"},
+    {0},
+};
+
+/* What a command does over its items. */
+struct session {
+  const struct gx_options *options;
+  size_t jobs, count;
+  const struct gx_paper_item *item[256];
+  struct gx_table *table[256]; /* rows of each item, owned */
+  size_t missed;               /* rows that miss their gate or cannot be judged */
+};
+
+static bool is_selected(const struct gx_paper_item *item, const char *operand)
+{
+  char name[GX_PAPER_NAME_LENGTH];
+  gx_paper_name(item, name);
+  return !strcmp(operand, item->paper) || !strcmp(operand, name);
+}
+
+static void suggest(const char *operand)
+{
+  struct gx_nearest near = {.word = operand};
+  for (size_t i = 0; i < gx_paper_item_count; i++) {
+    char name[GX_PAPER_NAME_LENGTH];
+    gx_paper_name(&gx_paper_items[i], name);
+    gx_nearest_try(&near, gx_paper_items[i].paper);
+    gx_nearest_try(&near, name);
+  }
+  fprintf(stderr, "gridcross paper: no paper or item '%s'", operand);
+  if (*near.best) fprintf(stderr, ": did you mean %s?", near.best);
+  fputs(*near.best ? "\n" : "; see gridcross paper --list\n", stderr);
+}
+
+/* Items in their own order, whatever the order of the operands; without operands all of them. */
+static int select_items(struct session *session)
+{
+  const struct gx_options *options = session->options;
+  int code = GX_EXIT_DONE;
+  for (size_t o = 0; o < options->operands; o++) {
+    bool known = false;
+    for (size_t i = 0; i < gx_paper_item_count; i++) known = known || is_selected(&gx_paper_items[i], options->operand[o]);
+    if (known) continue;
+    suggest(options->operand[o]);
+    code = GX_EXIT_USAGE;
+  }
+  for (size_t i = 0; i < gx_paper_item_count; i++) {
+    bool wanted = !options->operands;
+    for (size_t o = 0; o < options->operands; o++) wanted = wanted || is_selected(&gx_paper_items[i], options->operand[o]);
+    if (wanted && session->count < sizeof session->item / sizeof *session->item)
+      session->item[session->count++] = &gx_paper_items[i];
+  }
+  return code;
+}
+
+static int list_items(const struct session *session)
+{
+  for (size_t i = 0; i < session->count; i++) {
+    char name[GX_PAPER_NAME_LENGTH];
+    struct gx_study *study = gx_paper_study(session->item[i], stderr);
+    if (!study) return GX_EXIT_FAILED;
+    gx_paper_name(session->item[i], name);
+    printf("%-26s%4zu rows  %s\n", name, session->item[i]->rows, study->title);
+    gx_runfile_free(study);
+  }
+  return GX_EXIT_DONE;
+}
+
+/* DIR/<paper>-<item><ending>, owned by the caller. */
+static char *place(const struct session *session, size_t index, const char *ending)
+{
+  const char *directory = gx_options_value(session->options, "output");
+  const struct gx_paper_item *item = session->item[index];
+  size_t room = strlen(directory) + strlen(item->paper) + strlen(item->item) + strlen(ending) + 3;
+  char *path = malloc(room);
+  if (path) snprintf(path, room, "%s/%s-%s%s", directory, item->paper, item->item, ending);
+  return path;
+}
+
+/* Draws as `gridcross plot STUDY <the item's options> -o FIGURE` does, printed values over ours. */
+static int draw(const struct session *session, size_t index, const char *study)
+{
+  enum { WORDS = 32 };
+  char *figure = place(session, index, ".svg"), *words = strdup(session->item[index]->plot), *rest = NULL;
+  char program[] = "gridcross", plot[] = "plot", to[] = "-o", *directory = strdup(study);
+  char *argv[WORDS + 6] = {program, plot, directory};
+  int argc = 3, code = GX_EXIT_FAILED;
+  if (figure && words && directory) {
+    for (char *word = strtok_r(words, " \n", &rest); word && argc < WORDS; word = strtok_r(NULL, " \n", &rest))
+      argv[argc++] = word;
+    argv[argc++] = to;
+    argv[argc++] = figure;
+    struct gx_options options;
+    code = gx_options_parse(&options, &gx_command_plot, argc, argv, stderr);
+    if (!code) code = gx_command_plot.run(&options);
+    gx_options_free(&options);
+  } else {
+    gx_command_no_memory();
+  }
+  free(figure);
+  free(words);
+  free(directory);
+  return code;
+}
+
+static int keep(const struct session *session, size_t index, const struct gx_study *study, const struct gx_result *results)
+{
+  char *directory = place(session, index, ".study"), *line = gx_options_line(session->options);
+  int code = directory && line ? GX_EXIT_DONE : gx_command_no_memory();
+  const struct gx_store_run about = {.command = line};
+  if (!code && (gx_store_prepare(directory, stderr) || gx_store_write(directory, study, results, &about, stderr)))
+    code = GX_EXIT_FAILED;
+  if (!code && *session->item[index]->plot) code = draw(session, index, directory);
+  free(directory);
+  free(line);
+  return code;
+}
+
+/* Notes are numbered by distinct reason. Returns the number of row's, 0: none. */
+static size_t note_of(const struct gx_table *table, size_t reason, size_t row)
+{
+  size_t note = 0;
+  struct gx_value wanted = gx_table_get(table, row, reason);
+  if (wanted.type != GX_TEXT) return 0;
+  for (size_t r = 0; r <= row; r++) {
+    struct gx_value value = gx_table_get(table, r, reason);
+    bool first = value.type == GX_TEXT;
+    for (size_t before = 0; before < r && first; before++)
+      first = gx_value_compare(gx_table_get(table, before, reason), value) != 0;
+    note += first;
+    if (first && !gx_value_compare(value, wanted)) break;
+  }
+  return note;
+}
+
+enum { ROW, QUANTITY, OURS, PRINTED, CORRECTED, RATIO, GATE, VERDICT, NOTE, SHOWN };
+
+static int set_text(struct gx_table *sheet, size_t row, size_t column, const char *text)
+{
+  return *text ? gx_table_set(sheet, row, column, (struct gx_value){.type = GX_TEXT, .text = text}) : 0;
+}
+
+/* As papers print them: 1.73e-4, but 0.0173 and 173. */
+static const char *short_number(struct gx_value value, char text[GX_NUMBER_LENGTH])
+{
+  double size = value.type == GX_REAL ? fabs(value.real) : 0;
+  return gx_sheet_text(size >= 0.01 && size < 1e5 ? "result.number" : "result.energy.number", value, text);
+}
+
+/* Numbers of the paper stand as they are printed. */
+static struct gx_table *brief(const struct gx_paper_item *item, const struct gx_table *table, size_t reason)
+{
+  static const char *const name[SHOWN] = {"row", "quantity", "ours", "printed", "corrected", "ratio", "gate", "verdict", "note"};
+  struct gx_table *sheet = gx_table_create(SHOWN, table->rows);
+  size_t ours = (size_t)gx_table_find(table, "ours"), ratio = (size_t)gx_table_find(table, "ratio");
+  int failed = !sheet || gx_table_copy(sheet, VERDICT, table, (size_t)gx_table_find(table, "verdict"));
+  for (size_t c = 0; c < SHOWN && !failed; c++)
+    failed = gx_table_column(sheet, c, name[c], "", c == NOTE ? GX_INTEGER : c >= OURS && c <= RATIO ? GX_REAL : GX_TEXT);
+  for (size_t r = 0; r < table->rows && !failed; r++) {
+    const struct gx_paper_row *row = &item->row[r];
+    struct gx_value our_value = gx_table_get(table, r, ours), our_ratio = gx_table_get(table, r, ratio);
+    char text[GX_NUMBER_LENGTH];
+    size_t note = note_of(table, reason, r);
+    failed = set_text(sheet, r, ROW, row->row) || set_text(sheet, r, QUANTITY, row->quantity) ||
+             (our_value.type != GX_NULL && set_text(sheet, r, OURS, short_number(our_value, text))) ||
+             set_text(sheet, r, PRINTED, row->printed) || set_text(sheet, r, CORRECTED, row->corrected) ||
+             (our_ratio.type != GX_NULL && set_text(sheet, r, RATIO, gx_sheet_text("result.ratio", our_ratio, text))) ||
+             set_text(sheet, r, GATE, row->gate) ||
+             (note && gx_table_set(sheet, r, NOTE, (struct gx_value){.type = GX_INTEGER, .integer = (long)note}));
+  }
+  if (!failed) return sheet;
+  gx_table_free(sheet);
+  return NULL;
+}
+
+static int print_item(const struct gx_paper_item *item, const char *title, const struct gx_table *table)
+{
+  size_t reason = (size_t)gx_table_find(table, "reason"), notes = 0;
+  struct gx_table *sheet = brief(item, table, reason);
+  if (!sheet) return gx_command_no_memory();
+  printf("%s/%s  %s\n", item->paper, item->item, title);
+  int failed = gx_sheet_print(sheet, stdout);
+  for (size_t r = 0; r < table->rows; r++)
+    if (note_of(table, reason, r) > notes) printf("  %zu: %s\n", ++notes, gx_table_get(table, r, reason).text);
+  putchar('\n');
+  fflush(stdout);
+  gx_table_free(sheet);
+  return failed ? gx_command_no_memory() : GX_EXIT_DONE;
+}
+
+static bool is_streamed(const struct session *session)
+{
+  return gx_options_value(session->options, "csv") || gx_options_value(session->options, "json");
+}
+
+static int run_item(struct session *session, size_t index)
+{
+  const struct gx_paper_item *item = session->item[index];
+  struct gx_study *study = gx_paper_study(item, stderr);
+  struct gx_result *results = study ? calloc(study->count + 1, sizeof *results) : NULL;
+  struct gx_table *table = NULL;
+  size_t missed = 0;
+  int code = GX_EXIT_FAILED;
+  if (!results) {
+    if (study) gx_command_no_memory();
+  } else {
+    gx_study_run(study, session->jobs, NULL, results);
+    table = gx_study_table(study, results, true);
+    session->table[index] = table ? gx_paper_compare(item, table, &missed) : NULL;
+    session->missed += missed;
+    code = session->table[index] ? GX_EXIT_DONE : gx_command_no_memory();
+    if (!code && !is_streamed(session)) code = print_item(item, study->title, session->table[index]);
+    if (!code && gx_options_value(session->options, "output")) code = keep(session, index, study, results);
+    for (size_t i = 0; i < study->count; i++) gx_case_free(&results[i]);
+  }
+  gx_table_free(table);
+  free(results);
+  gx_runfile_free(study);
+  return code;
+}
+
+static struct gx_table *join(const struct session *session)
+{
+  size_t rows = 0, at = 0;
+  for (size_t i = 0; i < session->count; i++) rows += session->table[i]->rows;
+  const struct gx_table *any = session->table[0];
+  struct gx_table *all = gx_table_create(any->columns, rows);
+  int failed = !all;
+  for (size_t c = 0; c < any->columns && !failed; c++)
+    failed = gx_table_column(all, c, any->column[c].name, any->column[c].unit, any->column[c].type);
+  for (size_t i = 0; i < session->count; i++)
+    for (size_t r = 0; r < session->table[i]->rows && !failed; r++, at++)
+      for (size_t c = 0; c < any->columns && !failed; c++)
+        failed = gx_table_set(all, at, c, gx_table_get(session->table[i], r, c));
+  if (!failed) return all;
+  gx_table_free(all);
+  return NULL;
+}
+
+/* How many rows have each verdict. */
+static void print_summary(const struct gx_table *all, const struct session *session)
+{
+  size_t verdict = (size_t)gx_table_find(all, "verdict");
+  printf("%zu item%s, %zu rows:", session->count, session->count == 1 ? "" : "s", all->rows);
+  const char *gap = " ";
+  for (size_t r = 0; r < all->rows; r++) {
+    struct gx_value value = gx_table_get(all, r, verdict);
+    size_t count = 0, before = 0;
+    for (size_t other = 0; other < all->rows; other++) {
+      bool same = !gx_value_compare(gx_table_get(all, other, verdict), value);
+      count += same;
+      before += same && other < r;
+    }
+    if (before) continue;
+    printf("%s%zu %s", gap, count, value.text);
+    gap = ", ";
+  }
+  puts(session->missed ? ". A gate is missed." : ". Every gate is met.");
+}
+
+static int report(const struct session *session)
+{
+  struct gx_table *all = join(session);
+  if (!all) return gx_command_no_memory();
+  if (gx_options_value(session->options, "csv"))
+    gx_csv_write(all, stdout);
+  else if (gx_options_value(session->options, "json"))
+    gx_json_write(all, stdout);
+  else
+    print_summary(all, session);
+  gx_table_free(all);
+  return session->missed ? GX_EXIT_FAILED : GX_EXIT_DONE;
+}
+
+static int run_items(struct session *session)
+{
+  bool shows = !gx_options_value(session->options, "quiet") && isatty(STDERR_FILENO);
+  int code = GX_EXIT_DONE;
+  for (size_t i = 0; i < session->count && !code; i++) {
+    if (shows)
+      fprintf(stderr, "\r\033[K%zu of %zu: %s/%s", i + 1, session->count, session->item[i]->paper, session->item[i]->item);
+    code = run_item(session, i);
+    if (shows) fputs("\r\033[K", stderr);
+  }
+  if (!code) code = report(session);
+  for (size_t i = 0; i < session->count; i++) gx_table_free(session->table[i]);
+  return code;
+}
+
+static int run(const struct gx_options *options)
+{
+  struct session session = {.options = options};
+  if (gx_options_value(options, "csv") && gx_options_value(options, "json")) {
+    fputs("gridcross paper: --csv or --json, not both\n", stderr);
+    return GX_EXIT_USAGE;
+  }
+  int code = select_items(&session);
+  if (code) return code;
+  if (gx_options_value(options, "list")) return list_items(&session);
+  session.jobs = gx_command_jobs(options);
+  return session.jobs ? run_items(&session) : GX_EXIT_USAGE;
+}
+
+const struct gx_command gx_command_paper = {
+    .name = "paper",
+    .operands = "[PAPER[/ITEM]]...",
+    .least = 0,
+    .most = -1,
+    .help = "Recompute published tables and figures and print ours beside theirs, with ratio, gate and verdict.",
+    .option = option,
+    .run = run,
+};

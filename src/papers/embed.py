@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Puts run files, expectations and plots of runs/papers into the program.
+
+usage: embed.py OUTPUT.c FOLDER PAPER/ITEM..."""
+import csv
+import pathlib
+import sys
+
+COLUMNS = ["row", "quantity", "value", "printed", "corrected", "gate", "reason"]
+
+
+def literal(text):
+    return '"' + "".join(c if " " <= c <= "~" and c not in '"\\?' else "".join(f"\\{b:03o}" for b in c.encode()) for c in text) + '"'
+
+
+def array(text):
+    """A string of any length: compilers need not take literals beyond 4095 characters."""
+    numbers = ",".join(str(b if b < 128 else b - 256) for b in text.encode() + b"\0")
+    return "{" + numbers + "}"
+
+
+def expectations(path):
+    lines = [line for line in path.read_text().splitlines() if line and not line.startswith("#")]
+    reader = csv.DictReader(lines)
+    if reader.fieldnames != COLUMNS:
+        sys.exit(f"{path}: columns must be {','.join(COLUMNS)}")
+    for number, row in enumerate(reader, 1):
+        if None in row or None in row.values():
+            sys.exit(f"{path}: row {number} ({row['row']}) has another number of cells than the header")
+        if len(row["reason"].encode()) > 700:
+            sys.exit(f"{path}: row {number} ({row['row']}) has a reason of over 700 bytes")
+        yield row
+
+
+output, folder, items = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3:]
+text, table = ["#include <gridcross/paper.h>\n"], []
+for index, name in enumerate(items):
+    stem = folder / name
+    paper, item = name.split("/")
+    rows = list(expectations(stem.with_name(item + ".csv")))
+    plot = stem.with_name(item + ".plot")
+    text.append(f"static const char run_file_{index}[] = {array(stem.with_name(item + '.yaml').read_text())};")
+    text.append(f"static const struct gx_paper_row row_{index}[] = {{")
+    text += ["  {" + ", ".join(literal(row[c].strip()) for c in COLUMNS) + "}," for row in rows]
+    text.append("};")
+    table.append(f"  {{{literal(paper)}, {literal(item)}, run_file_{index}, {literal(plot.read_text().strip() if plot.exists() else '')}, row_{index}, {len(rows)}}},")
+text.append("const struct gx_paper_item gx_paper_items[] = {\n" + "\n".join(table) + "\n};")
+text.append(f"const size_t gx_paper_item_count = {len(items)};")
+pathlib.Path(output).write_text("\n".join(text) + "\n")
