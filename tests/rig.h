@@ -44,9 +44,9 @@ static inline bool rig_build(struct rig *rig, const struct gx_case *one, const s
   simulation->particles = particles;
   if (order) rig_reorder(particles, order);
   simulation->posed = gx_problem_pose(simulation->problem, options, particles->n, particles->X);
-  double start = simulation->clock->staggered ? -0.5 * simulation->dt : 0;
-  simulation->problem->exact(simulation->posed, 0, particles->u, NULL, particles->F);
-  simulation->problem->exact(simulation->posed, start, NULL, particles->v, NULL);
+  double start = simulation->start, behind = simulation->clock->staggered ? 0.5 * simulation->dt : 0;
+  simulation->problem->exact(simulation->posed, start, particles->u, NULL, particles->F, NULL);
+  simulation->problem->exact(simulation->posed, start - behind, NULL, particles->v, NULL, NULL);
   if (alter) alter(particles, context);
   enum gx_status status = simulation->kind->create(simulation->kind, &simulation->space, &simulation->space_options, particles,
                                                    simulation->posed, &rig->outcome);
@@ -61,7 +61,7 @@ static inline void rig_run(struct rig *rig, double steps)
   struct gx_simulation *simulation = &rig->simulation;
   if (steps < 0) steps = simulation->steps;
   for (double k = 0; k < steps; k++, rig->steps++) {
-    enum gx_status status = gx_stepper_step(rig->stepper, rig->steps * simulation->dt, simulation->dt);
+    enum gx_status status = gx_stepper_step(rig->stepper, simulation->start + rig->steps * simulation->dt, simulation->dt);
     CHECK(status == GX_OK, "%s", rig->outcome.reason);
   }
   if (simulation->kind->settle) simulation->kind->settle(simulation->space);

@@ -38,8 +38,9 @@ struct gx_problem {
   bool has_mode, has_directions, has_poisson; /* which problem.* parameters apply */
   bool periodic;                              /* default boundary */
   double cycles;                              /* one period is cycles/c seconds (c: wave speed, domain length 1) */
-  /* Exact displacement, velocity, deformation gradient at time t; any output may be NULL. Arrays as in gx_particles. */
-  void (*exact)(const struct gx_posed *posed, double t, double *const *u, double *const *v, double *const *F);
+  /* Exact displacement, velocity, deformation gradient and acceleration d2u/dt2 (m/s^2, [dim][n]) at time t; any output may be
+   * NULL. Arrays as in gx_particles. */
+  void (*exact)(const struct gx_posed *posed, double t, double *const *u, double *const *v, double *const *F, double *const *a);
   /* Body force per unit mass at the reference points at time t, m/s^2; NULL: none. b: [dim][n]. */
   void (*body)(const struct gx_posed *posed, double t, double *const *b);
 };

@@ -55,6 +55,8 @@ struct gx_state {
   size_t length[GX_MAX_STATE];
 };
 
+enum gx_field { GX_FIELD_VELOCITY, GX_FIELD_ACCELERATION };
+
 struct gx_space;
 
 struct gx_space_kind {
@@ -88,6 +90,10 @@ struct gx_space_kind {
   void (*settle)(struct gx_space *space);
   /* Acceleration of the particles after accelerate. a: [dim][n], m/s^2. */
   void (*particle_acceleration)(struct gx_space *space, double *const *a);
+  /* The field sum_i value_i N_i of the present nodal velocity or acceleration at n points of the grid's own coordinate: x where the
+   * grid is fixed, X where it moves along. N_i are the basis functions; those averaged over particle domains (GIMP) are the hats
+   * that they average. point: [dim][n], in [0, 1] unless periodic; value: [dim][n]. NULL: no function on a grid. */
+  void (*field)(const struct gx_space *space, enum gx_field which, size_t n, double *const *point, double *const *value);
 };
 
 /* What every space starts with. */

@@ -30,7 +30,7 @@ static int put_plan(struct gx_table *table, size_t row, const struct gx_plan *pl
 {
   char note[GX_REASON_LENGTH + 32] = "";
   bool refused = plan->outcome.status != GX_OK, above = !refused && plan->dt > plan->stable_dt;
-  bool grows = !refused && plan->growth * plan->end > 5; /* by a factor of 150 */
+  bool grows = !refused && plan->growth * plan->dt * plan->steps > 5; /* by a factor of 150 */
   if (refused)
     snprintf(note, sizeof note, "%s: %s", gx_status_name(plan->outcome.status), plan->outcome.reason);
   else if (plan->stable_dt == 0)

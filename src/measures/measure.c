@@ -133,7 +133,7 @@ static void errors(struct gx_measure *measure, double t, double error[GX_QUANTIT
   int dim = measure->dim;
   size_t n = measure->n;
   double **P = measure->P.component;
-  posed->problem->exact(posed, t, measure->exact_u.component, measure->exact_v.component, measure->exact_F.component);
+  posed->problem->exact(posed, t, measure->exact_u.component, measure->exact_v.component, measure->exact_F.component, NULL);
   material->piola(moduli, dim, n, measure->exact_F.component, P);
   gx_material_cauchy(dim, n, measure->exact_F.component, P, measure->exact_stress.component);
   gx_material_cauchy(dim, n, particles->F, particles->P, measure->stress.component);

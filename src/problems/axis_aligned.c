@@ -14,14 +14,15 @@ static double angle(const struct gx_posed *posed, int d, double t)
   return M_PI * posed->speed * t + posed->options.phase[d];
 }
 
-void gx_axis_aligned_exact(const struct gx_posed *posed, double t, double *const *u, double *const *v, double *const *F)
+void gx_axis_aligned_exact(const struct gx_posed *posed, double t, double *const *u, double *const *v, double *const *F,
+                           double *const *a)
 {
   double factor[GX_MAX_DIM], rate[GX_MAX_DIM];
   for (int d = 0; d < posed->options.dim; d++) {
     factor[d] = cos(angle(posed, d, t));
     rate[d] = -M_PI * posed->speed * sin(angle(posed, d, t));
   }
-  gx_standing_wave_exact(posed, factor, rate, u, v, F);
+  gx_standing_wave_exact(posed, M_PI * posed->speed, factor, rate, u, v, F, a);
 }
 
 /* Without a bulk term each direction depends on its own F_d alone. */

@@ -5,10 +5,10 @@
 
 extern const struct gx_material gx_linear_elastic;
 
-static void exact(const struct gx_posed *posed, double t, double *const *u, double *const *v, double *const *F)
+static void exact(const struct gx_posed *posed, double t, double *const *u, double *const *v, double *const *F, double *const *a)
 {
   double omega = 2 * M_PI * posed->options.mode * posed->speed;
-  gx_standing_wave_exact(posed, (double[]){sin(omega * t)}, (double[]){omega * cos(omega * t)}, u, v, F);
+  gx_standing_wave_exact(posed, omega, (double[]){sin(omega * t)}, (double[]){omega * cos(omega * t)}, u, v, F, a);
 }
 
 const struct gx_problem gx_bar_linear = {

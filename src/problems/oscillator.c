@@ -20,12 +20,13 @@ static double speed(const struct gx_moduli *moduli)
 
 static const struct gx_material spring = {.name = "spring", .piola = piola, .wave_speed = speed};
 
-static void exact(const struct gx_posed *posed, double t, double *const *u, double *const *v, double *const *F)
+static void exact(const struct gx_posed *posed, double t, double *const *u, double *const *v, double *const *F, double *const *a)
 {
   double omega = M_PI * posed->speed;
   if (u) u[0][0] = sin(omega * t);
   if (v) v[0][0] = omega * cos(omega * t);
   if (F) F[0][0] = 2 + sin(omega * t);
+  if (a) a[0][0] = -omega * omega * sin(omega * t);
 }
 
 const struct gx_problem gx_oscillator = {

@@ -7,9 +7,9 @@
 
 #include <gridcross/problem.h>
 
-/* u, v, F from the factors T_d and dT_d/dt. */
-static inline void gx_standing_wave_exact(const struct gx_posed *posed, const double *factor, const double *rate,
-                                          double *const *u, double *const *v, double *const *F)
+/* u, v, F, a from the factors T_d and dT_d/dt; d2T_d/dt2 = -omega^2 T_d. */
+static inline void gx_standing_wave_exact(const struct gx_posed *posed, double omega, const double *factor, const double *rate,
+                                          double *const *u, double *const *v, double *const *F, double *const *a)
 {
   int dim = posed->options.dim;
   double wavenumber = 2 * M_PI * posed->options.mode;
@@ -20,6 +20,8 @@ static inline void gx_standing_wave_exact(const struct gx_posed *posed, const do
       for (size_t p = 0; p < posed->n; p++) u[d][p] = A * factor[d] * sine[p];
     if (v)
       for (size_t p = 0; p < posed->n; p++) v[d][p] = A * rate[d] * sine[p];
+    if (a)
+      for (size_t p = 0; p < posed->n; p++) a[d][p] = -omega * omega * A * factor[d] * sine[p];
     for (int e = 0; F && e < dim; e++)
       for (size_t p = 0; p < posed->n; p++) F[d * dim + e][p] = d == e ? 1 + wavenumber * A * factor[d] * cosine[p] : 0;
   }

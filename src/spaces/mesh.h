@@ -55,5 +55,6 @@ double gx_mesh_kinetic(const struct gx_space *space);
 /* Adds component arrays to the list of what a space advances. */
 void gx_mesh_append(struct gx_state *state, int count, double *const *array, size_t length);
 void gx_mesh_particle_acceleration(struct gx_space *space, double *const *a);
+void gx_mesh_field(const struct gx_space *space, enum gx_field which, size_t n, double *const *point, double *const *value);
 
 #endif

@@ -191,4 +191,5 @@ const struct gx_space_kind gx_moving_mesh = {
     .kinetic = gx_mesh_kinetic,
     .settle = settle,
     .particle_acceleration = gx_mesh_particle_acceleration,
+    .field = gx_mesh_field,
 };

@@ -245,4 +245,5 @@ const struct gx_space_kind gx_standard = {
     .rates = rates,
     .kinetic = gx_mesh_kinetic,
     .particle_acceleration = gx_mesh_particle_acceleration,
+    .field = gx_mesh_field,
 };

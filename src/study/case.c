@@ -47,6 +47,7 @@ static enum gx_status prepare(struct run *run, const struct gx_case *one, double
   simulation->dt /= refine;
   simulation->steps *= refine;
   run->result->dt = simulation->dt;
+  run->result->time = run->time = simulation->start;
   GX_TRY(gx_simulation_build(simulation, outcome));
   run->level = level_of(one);
   run->history_every = (double)one->value[GX_OUTPUT_HISTORIES].integer;
@@ -96,7 +97,7 @@ static void advance_time(struct run *run, double step)
     run->lost = (sum - run->time) - correction;
     run->time = sum;
   } else {
-    run->time = step * dt;
+    run->time = run->simulation.start + step * dt;
   }
 }
 
@@ -136,7 +137,16 @@ static double unprojected_drift(const struct gx_splitting *splitting)
   return sum;
 }
 
-/* The largest stable step, 0 when there is none, estimated on a fresh copy of the case. Projecting particle velocities to nodes multiplies a mode by
+/* Few steps of many particles cost less than the power iteration, whose answer they do not need. */
+static bool is_worth_an_estimate(const struct gx_simulation *simulation)
+{
+  const double blink = 1e7; /* particle evaluations: tenths of a second */
+  double particles = pow((double)simulation->space_options.cells[0] * simulation->per_cell, simulation->problem_options.dim);
+  return simulation->steps >= GX_STABILITY_EVALUATIONS || particles * GX_STABILITY_EVALUATIONS <= blink;
+}
+
+/* The largest stable step, 0 when there is none, estimated on a fresh copy of the case; NaN where that would cost more than
+ * the run. Projecting particle velocities to nodes multiplies a mode by
  * lambda in [0, 1]; with K its stiffness, rates see the frequency sqrt(lambda K). But a clock of kicks drifts with the kick it has
  * just given to the nodes, which is not projected: a step has trace 2 - dt^2 K and determinant 1 - dt^2 K (1 - lambda), and is
  * stable for dt^2 K (2 - lambda) < 4. Taken here: lambda = 0, which is safe, and K as if nodal velocities were
@@ -146,7 +156,7 @@ static double estimate_stable_dt(const struct gx_case *one)
   struct gx_simulation simulation;
   struct gx_outcome outcome;
   double dt = NAN;
-  if (gx_simulation_plan(&simulation, one, &outcome) == GX_OK) {
+  if (gx_simulation_plan(&simulation, one, &outcome) == GX_OK && is_worth_an_estimate(&simulation)) {
     bool projected = simulation.space_options.each_step && !simulation.clock->tableau;
     if (projected) simulation.space_options.each_step = false;
     if (projected && simulation.clock->splitting && unprojected_drift(simulation.clock->splitting) < 0)

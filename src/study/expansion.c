@@ -83,8 +83,7 @@ static void combine(struct gx_settings *settings, const struct gx_layer *layer, 
   for (struct gx_setting *setting = settings->base.first; setting; setting = setting->next)
     combination->held[setting->id] = setting;
   for (struct gx_setting *setting = layer->first; setting; setting = setting->next) {
-    int rival = gx_setting_rival(setting->id);
-    if (rival >= 0) combination->held[rival] = NULL;
+    for (int i = 0, rival; (rival = gx_setting_rival(setting->id, i)) >= 0; i++) combination->held[rival] = NULL;
     combination->held[setting->id] = setting;
   }
   for (int id = 0; id < GX_PARAMETERS; id++) {

@@ -49,7 +49,7 @@ static void expect_echoes(struct gx_settings *settings, const char *meant)
 {
   int id = gx_parameter_find(meant);
   if (id == GX_PROBLEM_NAME || !strcmp(meant, "problem")) settings->name_excused = true;
-  if (id < 0 || gx_parameters[id].choice || id == GX_PROBLEM_DIMENSION || gx_setting_rival((enum gx_parameter_id)id) >= 0)
+  if (id < 0 || gx_parameters[id].choice || id == GX_PROBLEM_DIMENSION || gx_setting_rival((enum gx_parameter_id)id, 0) >= 0)
     settings->uncertain = true;
 }
 
@@ -157,8 +157,8 @@ static void read_setting(struct gx_settings *settings, struct gx_layer *layer, i
   struct gx_setting *setting = gx_setting_read(settings, (enum gx_parameter_id)id, key->place, key->next);
   if (!setting) return;
   name(settings, id);
-  int rival = gx_setting_rival((enum gx_parameter_id)id);
-  if (rival >= 0 && (same = gx_setting_find(layer, (enum gx_parameter_id)rival))) {
+  for (int i = 0, rival; (rival = gx_setting_rival((enum gx_parameter_id)id, i)) >= 0; i++) {
+    if (!(same = gx_setting_find(layer, (enum gx_parameter_id)rival))) continue;
     gx_errors_add(settings->errors, key->place, "%s and %s exclude each other; remove one (the other is at line %d, column %d)",
                   gx_parameters[id].path, gx_parameters[rival].path, same->place.line, same->place.column);
     return;
@@ -231,11 +231,11 @@ static void read_case(struct gx_settings *settings, const struct gx_yaml *entry)
   for (const struct gx_yaml *key = entry->first; key && !gx_errors_full(settings->errors); key = key->next->next)
     if (is_fresh_key(settings, entry, key) && !read_key(settings, layer, key)) report_unknown(settings, key, false);
   for (const struct gx_setting *setting = layer->first; setting; setting = setting->next) {
-    int rival = gx_setting_rival(setting->id);
     settings->varied[setting->id] = true;
-    if (rival < 0) continue;
-    name(settings, rival);
-    settings->varied[rival] = true;
+    for (int i = 0, rival; (rival = gx_setting_rival(setting->id, i)) >= 0; i++) {
+      name(settings, rival);
+      settings->varied[rival] = true;
+    }
   }
 }
 
@@ -362,9 +362,8 @@ void gx_layers_set(struct gx_settings *settings, int set, const char *text)
   if (errors->count > count || errors->out_of_memory) return;
   struct gx_setting *setting = gx_setting_read(settings, (enum gx_parameter_id)id, place, value ? value : &nothing);
   if (!setting) return;
-  int rival = gx_setting_rival((enum gx_parameter_id)id);
   drop(&settings->base, id);
-  if (rival >= 0) drop(&settings->base, rival);
+  for (int i = 0, rival; (rival = gx_setting_rival((enum gx_parameter_id)id, i)) >= 0; i++) drop(&settings->base, rival);
   *settings->base.tail = setting;
   settings->base.tail = &setting->next;
   name(settings, id);

@@ -254,11 +254,18 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
          .help = "time step as dt c/h, with wave speed c and cell width h; smaller for splines through several particles a "
                  "cell; excludes time.dt",
          .why = "below the limit of most methods here"},
+    [GX_TIME_START] = {.path = "time.start",
+                       .type = GX_REAL,
+                       .unit = "s",
+                       RANGE(-INFINITY, INFINITY),
+                       .standard = "0",
+                       .help = "time at which the run starts, from the exact state",
+                       .why = "0: the state that the problem is posed with"},
     [GX_TIME_END] = {.path = "time.end",
                      .type = GX_REAL,
                      .unit = "s",
-                     POSITIVE,
-                     .help = "end time; excludes time.periods",
+                     RANGE(-INFINITY, INFINITY),
+                     .help = "end time, after time.start; excludes time.periods and time.steps",
                      .why = "none: time.periods sets the end"},
     [GX_TIME_PERIODS] = {.path = "time.periods",
                          .type = GX_REAL,
@@ -266,13 +273,20 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                          POSITIVE,
                          .standard = "1",
                          .applies = gx_rules_periods_applies,
-                         .help = "end time in periods of the exact solution; excludes time.end",
+                         .help = "time from start to end in periods of the exact solution; excludes time.end and time.steps",
                          .why = "every state of the motion is met once"},
+    [GX_TIME_STEPS] = {.path = "time.steps",
+                       .type = GX_INTEGER,
+                       .unit = "",
+                       RANGE(1, 1e15),
+                       .help = "number of steps of the length asked for; excludes time.end and time.periods",
+                       .why = "none: time.periods sets the end"},
     [GX_TIME_LANDING] = {.path = "time.landing",
                          .type = GX_TEXT,
                          .unit = "",
                          .choice = gx_rules_landing_choice,
                          .standard = "exact",
+                         .applies = gx_rules_landing_applies,
                          .help = "shorten the step so that whole steps meet the end, or keep it and stop at or past the end",
                          .why = "errors of different steps are then taken at the same time"},
     [GX_TIME_ACCUMULATE] = {.path = "time.accumulate",
@@ -280,7 +294,7 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                             .unit = "",
                             .choice = gx_rules_accumulate_choice,
                             .standard = "product",
-                            .help = "time of step n: n dt, or a running sum, plain or compensated",
+                            .help = "time of step n: start + n dt, or a running sum, plain or compensated",
                             .why = "rounding does not build up"},
     [GX_OUTPUT_MEASURES] = {.path = "output.measures",
                             .type = GX_TEXT,
@@ -340,6 +354,10 @@ void gx_parameter_resolve(struct gx_value *value)
 bool gx_parameter_fits(enum gx_parameter_id id, const struct gx_value *value, char objection[GX_OBJECTION_LENGTH])
 {
   const struct gx_parameter *parameter = &gx_parameters[id];
+  if (id == GX_TIME_END && value[id].type == GX_REAL && !(value[id].real > value[GX_TIME_START].real)) {
+    snprintf(objection, GX_OBJECTION_LENGTH, "%.15g is not after time.start, %.15g", value[id].real, value[GX_TIME_START].real);
+    return false;
+  }
   if (id == GX_PROBLEM_DIMENSION) {
     const struct gx_problem *problem = gx_problem_find(value[GX_PROBLEM_NAME].text);
     if (value[id].integer <= problem->max_dim) return true;

@@ -143,7 +143,13 @@ bool gx_rules_cfl_applies(const struct gx_value *value)
 
 bool gx_rules_periods_applies(const struct gx_value *value)
 {
-  return value[GX_TIME_END].type == GX_NULL;
+  return value[GX_TIME_END].type == GX_NULL && value[GX_TIME_STEPS].type == GX_NULL;
+}
+
+/* A number of steps lands where it does. */
+bool gx_rules_landing_applies(const struct gx_value *value)
+{
+  return value[GX_TIME_STEPS].type == GX_NULL;
 }
 
 /* Defaults that depend on other parameters */

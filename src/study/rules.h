@@ -39,6 +39,7 @@ bool gx_rules_particles_move(const struct gx_value *value);
 bool gx_rules_flip_applies(const struct gx_value *value);
 bool gx_rules_cfl_applies(const struct gx_value *value);
 bool gx_rules_periods_applies(const struct gx_value *value);
+bool gx_rules_landing_applies(const struct gx_value *value);
 
 /* Defaults that follow from parameters before them in the table. */
 struct gx_value gx_rules_boundary_default(const struct gx_value *value);

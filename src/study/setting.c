@@ -258,11 +258,14 @@ struct gx_setting *gx_setting_find(const struct gx_layer *layer, enum gx_paramet
   return setting;
 }
 
-int gx_setting_rival(enum gx_parameter_id id)
+int gx_setting_rival(enum gx_parameter_id id, int i)
 {
-  static const enum gx_parameter_id rivals[][2] = {{GX_TIME_DT, GX_TIME_CFL}, {GX_TIME_END, GX_TIME_PERIODS}};
-  for (size_t i = 0; i < sizeof rivals / sizeof *rivals; i++)
-    for (int j = 0; j < 2; j++)
-      if (rivals[i][j] == id) return (int)rivals[i][1 - j];
-  return -1;
+  static const int rivals[GX_PARAMETERS][3] = {
+      [GX_TIME_DT] = {GX_TIME_CFL},
+      [GX_TIME_CFL] = {GX_TIME_DT},
+      [GX_TIME_END] = {GX_TIME_PERIODS, GX_TIME_STEPS},
+      [GX_TIME_PERIODS] = {GX_TIME_END, GX_TIME_STEPS},
+      [GX_TIME_STEPS] = {GX_TIME_END, GX_TIME_PERIODS},
+  };
+  return rivals[id][i] ? rivals[id][i] : -1; /* 0 is problem.name, nobody's rival */
 }

@@ -56,7 +56,7 @@ struct gx_setting *gx_setting_read(struct gx_settings *settings, enum gx_paramet
 /* Setting of the parameter in the layer, or NULL. */
 struct gx_setting *gx_setting_find(const struct gx_layer *layer, enum gx_parameter_id id);
 
-/* The parameter that excludes this one (time.dt and time.cfl), or -1. */
-int gx_setting_rival(enum gx_parameter_id id);
+/* The i-th parameter that excludes this one (time.dt and time.cfl), -1 after the last. */
+int gx_setting_rival(enum gx_parameter_id id, int i);
 
 #endif

@@ -105,14 +105,16 @@ static enum gx_status settle_steps(struct gx_simulation *simulation, const struc
   double h = 1.0 / simulation->space_options.cells[0];
   double period = simulation->problem->cycles / (c * simulation->problem_options.mode);
   double dt = real(one, GX_TIME_DT, real(one, GX_TIME_CFL, 0) * h / c);
-  double end = real(one, GX_TIME_END, real(one, GX_TIME_PERIODS, 0) * period);
-  if (!(dt > 0 && isfinite(dt) && end > 0 && isfinite(end)))
-    return gx_status_set(outcome, GX_REFUSED, -1, "time step %g s and end %g s are not both positive finite numbers", dt, end);
-  simulation->steps = fmax(1, ceil(end / dt - 1e-9)); /* however short, the time asked for is run */
+  double start = real(one, GX_TIME_START, 0), counted = (double)integer(one, GX_TIME_STEPS, 0);
+  double span = counted > 0 ? counted * dt : real(one, GX_TIME_END, start + real(one, GX_TIME_PERIODS, 0) * period) - start;
+  if (!(dt > 0 && isfinite(dt) && span > 0 && isfinite(span)))
+    return gx_status_set(outcome, GX_REFUSED, -1, "time step %g s and time to run %g s are not both positive finite numbers", dt,
+                         span);
+  simulation->steps = counted > 0 ? counted : fmax(1, ceil(span / dt - 1e-9)); /* however short, the time asked for is run */
   if (simulation->steps > 1e15) return gx_status_set(outcome, GX_REFUSED, -1, "%.3g steps would never end", simulation->steps);
-  bool exact = !is(one, GX_TIME_LANDING, "past");
-  simulation->dt = exact ? end / simulation->steps : dt;
-  simulation->end = end;
+  simulation->dt = is(one, GX_TIME_LANDING, "exact") ? span / simulation->steps : dt;
+  simulation->start = start;
+  simulation->end = start + span;
   return GX_OK;
 }
 
@@ -134,9 +136,9 @@ enum gx_status gx_simulation_build(struct gx_simulation *simulation, struct gx_o
   if (!particles) return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the particles");
   simulation->posed = gx_problem_pose(simulation->problem, options, particles->n, particles->X);
   if (!simulation->posed) return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the problem");
-  simulation->problem->exact(simulation->posed, 0, particles->u, NULL, particles->F);
-  double start = simulation->clock->staggered ? -0.5 * simulation->dt : 0;
-  simulation->problem->exact(simulation->posed, start, NULL, particles->v, NULL);
+  double start = simulation->start, behind = simulation->clock->staggered ? 0.5 * simulation->dt : 0;
+  simulation->problem->exact(simulation->posed, start, particles->u, NULL, particles->F, NULL);
+  simulation->problem->exact(simulation->posed, start - behind, NULL, particles->v, NULL, NULL);
   return simulation->kind->create(simulation->kind, &simulation->space, &simulation->space_options, particles, simulation->posed,
                                   outcome);
 }
@@ -159,7 +161,7 @@ double gx_simulation_kinetic_bound(const struct gx_simulation *simulation)
   for (int d = 0; d < particles->dim; d++) v[d] = block + (size_t)d * particles->n;
   for (int i = 0; i < SAMPLES; i++) {
     double kinetic = 0;
-    simulation->problem->exact(simulation->posed, period * i / SAMPLES, NULL, v, NULL);
+    simulation->problem->exact(simulation->posed, period * i / SAMPLES, NULL, v, NULL, NULL);
     for (int d = 0; d < particles->dim; d++)
       for (size_t p = 0; p < particles->n; p++) kinetic += 0.5 * particles->m[p] * v[d][p] * v[d][p];
     largest = fmax(largest, kinetic);

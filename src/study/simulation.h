@@ -14,7 +14,8 @@ struct gx_simulation {
   const struct gx_clock *clock;
   enum gx_layout layout;
   int per_cell;
-  double dt, end, steps;
+  double start, end, dt; /* s */
+  double steps;
   bool built; /* the three below exist */
   struct gx_particles *particles;
   struct gx_posed *posed;

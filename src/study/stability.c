@@ -11,7 +11,7 @@
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_errno.h>
 
-enum { LEAST_ITERATIONS = 10, MOST_ITERATIONS = 100 };
+enum { LEAST_ITERATIONS = 10, MOST_ITERATIONS = (GX_STABILITY_EVALUATIONS - 1) / 2 };
 static const double settled = 1e-3; /* relative change that ends the iteration */
 
 struct iteration {

@@ -5,6 +5,8 @@
 
 #include <gridcross/clock.h>
 
+enum { GX_STABILITY_EVALUATIONS = 201 }; /* of the rates, at most */
+
 /* Highest angular frequency of the space linearised at its present state, by power iteration, rad/s; NaN when the iteration
  * fails. From below: usually within a per cent. The state is restored, weights and forces are not. */
 double gx_stability_frequency(struct gx_space *space);

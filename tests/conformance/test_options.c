@@ -252,6 +252,62 @@ static void steps_meet_or_pass_the_end(void **state)
   }
 }
 
+/* The start counts towards the end, not towards periods or steps; a number of steps keeps its step, whatever the landing. */
+static void runs_start_where_asked(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *until, *landing;
+    double steps, dt, end;
+  } rows[] = {{"time.end=4.1", "time.landing=exact", 4, 0.275, 4.1},
+              {"time.end=4.1", "time.landing=past", 4, 0.3, 4.1},
+              {"time.periods=2", "time.landing=exact", 14, 4.0 / 14, 7},
+              {"time.steps=5", "time.landing=exact", 5, 0.3, 4.5}};
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+    struct gx_case one = case_of("problem.modulus=1", "time.dt=0.3", "time.start=3", rows[i].until, rows[i].landing);
+    struct gx_plan plan = gx_case_plan(&one);
+    NEAR(plan.steps, rows[i].steps, 0);
+    CLOSE(plan.dt, rows[i].dt, 1e-15);
+    CLOSE(plan.end, rows[i].end, 1e-15);
+  }
+}
+
+/* The state at the start is the exact one, and the clock reads the start's time; later by whole periods it is the same run. */
+static void runs_start_from_the_exact_state(void **state)
+{
+  (void)state;
+  static const char *const accumulate[] = {"time.accumulate=product", "time.accumulate=sum", "time.accumulate=compensated"};
+  for (int k = 0; k < 3; k++)
+    for (int later = 0; later < 2; later++) {
+      struct gx_case one = case_of("problem.modulus=1", "mesh.cells=16", "time.dt=0.02", "time.steps=20", "output.histories=20",
+                                   "method.clock=rk4", accumulate[k], later ? "time.start=2.3" : "time.start=0.3");
+      struct gx_result result = gx_case_run(&one);
+      static double error;
+      assert_int_equal(result.history.samples, 2);
+      NEAR(result.history.sample[0].time, later ? 2.3 : 0.3, 0);
+      NEAR(result.history.sample[0].error[GX_DISPLACEMENT][GX_INF], 0, 1e-16);
+      NEAR(result.history.sample[0].error[GX_VELOCITY][GX_INF], 0, 1e-16);
+      CLOSE(result.time, later ? 2.7 : 0.7, 1e-14);
+      if (later) CLOSE(result.measured.last.error[GX_DISPLACEMENT][GX_INF], error, 1e-9);
+      error = result.measured.last.error[GX_DISPLACEMENT][GX_INF];
+      CHECK(error > 1e-5 && error < 1e-3, "error %g", error);
+      gx_case_free(&result);
+    }
+}
+
+/* A step of many particles is not worth the hundreds that the power iteration may take. */
+static void the_stable_step_costs_no_more_than_the_run(void **state)
+{
+  (void)state;
+  struct gx_case one = case_of("mesh.cells=13000", "time.dt=1e-6", "time.steps=200");
+  assert_true(isnan(gx_case_plan(&one).stable_dt));
+  one.value[GX_TIME_STEPS].integer = 201;
+  assert_true(gx_case_plan(&one).stable_dt > 0);
+  one.value[GX_TIME_STEPS].integer = 1;
+  one.value[GX_MESH_CELLS].integer = 120; /* too small to matter */
+  assert_true(gx_case_plan(&one).stable_dt > 0);
+}
+
 /* u_d = A sin(2 pi X_d) cos(phi_d) at the start, phases in multiples of pi. */
 static void phases_are_multiples_of_pi(void **state)
 {
@@ -374,6 +430,9 @@ int main(void)
       cmocka_unit_test(time_is_accumulated_as_asked),
       cmocka_unit_test(a_reference_run_has_a_finer_step),
       cmocka_unit_test(steps_meet_or_pass_the_end),
+      cmocka_unit_test(runs_start_where_asked),
+      cmocka_unit_test(runs_start_from_the_exact_state),
+      cmocka_unit_test(the_stable_step_costs_no_more_than_the_run),
       cmocka_unit_test(phases_are_multiples_of_pi),
       cmocka_unit_test(periods_are_those_of_the_problem),
       cmocka_unit_test(the_stable_step_is_that_of_the_highest_frequency),

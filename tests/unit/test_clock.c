@@ -142,7 +142,7 @@ static void set_up(struct oscillator *oscillator, const struct gx_clock *clock)
   oscillator->particles = gx_particles_create(1, &cells, 1, GX_LAYOUT_UNIFORM, 1);
   oscillator->posed = gx_problem_pose(problem, &options, 1, oscillator->particles->X);
   oscillator->posed->problem->exact(oscillator->posed, 0, oscillator->particles->u, oscillator->particles->v,
-                                    oscillator->particles->F);
+                                    oscillator->particles->F, NULL);
   const struct gx_space_kind *kind = gx_space_find(problem->space);
   assert_int_equal(kind->create(kind, &oscillator->space, &none, oscillator->particles, oscillator->posed, &oscillator->outcome),
                    GX_OK);

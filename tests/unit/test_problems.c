@@ -73,16 +73,19 @@ static void check_exact(const struct gx_problem *problem, const struct gx_proble
   const double step = 1e-3;
   int dim = options->dim;
   struct gx_posed *posed = pose(problem, options, 0, 0);
-  struct field u, v, F, u_at[4];
-  problem->exact(posed, t, of(&u), of(&v), of(&F));
-  for (int i = 0; i < 4; i++) problem->exact(posed, t + step * shift[i], of(&u_at[i]), NULL, NULL);
+  struct field u, v, F, a, u_at[4], v_at[4];
+  problem->exact(posed, t, of(&u), of(&v), of(&F), of(&a));
+  for (int i = 0; i < 4; i++) problem->exact(posed, t + step * shift[i], of(&u_at[i]), of(&v_at[i]), NULL, NULL);
   double speed = posed->speed * 2 * M_PI * options->mode * options->amplitude;
   for (int d = 0; d < dim; d++)
-    for (int p = 0; p < N; p++) NEAR(slope(u_at, d, p, step), v.store[d][p], 1e-5 * speed);
+    for (int p = 0; p < N; p++) {
+      NEAR(slope(u_at, d, p, step), v.store[d][p], 1e-5 * speed);
+      NEAR(slope(v_at, d, p, step), a.store[d][p], 1e-5 * speed * posed->speed * 2 * M_PI * options->mode);
+    }
   for (int e = 0; e < dim; e++) {
     for (int i = 0; i < 4; i++) {
       struct gx_posed *moved = pose(problem, options, e, step * shift[i]);
-      problem->exact(moved, t, of(&u_at[i]), NULL, NULL);
+      problem->exact(moved, t, of(&u_at[i]), NULL, NULL, NULL);
       gx_problem_free(moved);
     }
     for (int d = 0; d < dim; d++)
@@ -93,7 +96,7 @@ static void check_exact(const struct gx_problem *problem, const struct gx_proble
   gx_problem_free(posed);
 }
 
-static void velocity_and_gradient_are_derivatives(void **state)
+static void velocity_gradient_and_acceleration_are_derivatives(void **state)
 {
   (void)state;
   each_problem(check_exact);
@@ -108,7 +111,7 @@ static void check_balance(const struct gx_problem *problem, const struct gx_prob
     struct field F, P[4];
     for (int i = 0; i < 4; i++) {
       struct gx_posed *moved = pose(problem, options, e, step * shift[i]);
-      problem->exact(moved, t, NULL, NULL, of(&F));
+      problem->exact(moved, t, NULL, NULL, of(&F), NULL);
       assert_int_equal(problem->material->piola(&options->moduli, dim, N, F.component, of(&P[i])), -1);
       gx_problem_free(moved);
     }
@@ -117,7 +120,7 @@ static void check_balance(const struct gx_problem *problem, const struct gx_prob
   }
   struct gx_posed *posed = pose(problem, options, 0, 0);
   struct field v[4], b = {0};
-  for (int i = 0; i < 4; i++) problem->exact(posed, t + 0.1 * step * shift[i], NULL, of(&v[i]), NULL);
+  for (int i = 0; i < 4; i++) problem->exact(posed, t + 0.1 * step * shift[i], NULL, of(&v[i]), NULL, NULL);
   of(&b);
   if (problem->body) problem->body(posed, t, b.component);
   double wave = 2 * M_PI * options->mode, scale = options->moduli.young * options->amplitude * wave * wave;
@@ -144,7 +147,7 @@ static void neo_hookean_body_by_hand(void **state)
         .dim = 1, .amplitude = 0.05, .mode = 1, .moduli = gx_material_moduli(1e4, 0, 1), .active = {true}};
     double X[] = {0.1, 0.3, 0.55}, b[3], u[3], F[3];
     struct gx_posed *posed = gx_problem_pose(problem, &options, 3, (double *[]){X});
-    problem->exact(posed, 0.003, (double *[]){u}, NULL, (double *[]){F});
+    problem->exact(posed, 0.003, (double *[]){u}, NULL, (double *[]){F}, NULL);
     problem->body(posed, 0.003, (double *[]){b});
     for (int p = 0; p < 3; p++) {
       NEAR(u[p], 0.05 * sin(2 * M_PI * X[p]) * cos(0.3 * M_PI), 1e-16);
@@ -163,7 +166,7 @@ static void linear_bar_by_hand(void **state)
       .dim = 1, .amplitude = 0.05, .mode = 1, .moduli = gx_material_moduli(16, 0, 1), .active = {true}};
   double X = 0.2, u, v;
   struct gx_posed *posed = gx_problem_pose(problem, &options, 1, (double *[]){&X});
-  problem->exact(posed, 0.01, (double *[]){&u}, (double *[]){&v}, NULL);
+  problem->exact(posed, 0.01, (double *[]){&u}, (double *[]){&v}, NULL, NULL);
   NEAR(u, 0.05 * sin(0.4 * M_PI) * sin(0.08 * M_PI), 1e-16);
   NEAR(v, 0.05 * sin(0.4 * M_PI) * 8 * M_PI * cos(0.08 * M_PI), 1e-14);
   assert_null(problem->body);
@@ -176,9 +179,9 @@ static void check_period(const struct gx_problem *problem, const struct gx_probl
   struct gx_posed *posed = pose(problem, options, 0, 0);
   struct field u, later, half;
   double period = problem->cycles / (posed->speed * options->mode), difference = 0;
-  problem->exact(posed, t, of(&u), NULL, NULL);
-  problem->exact(posed, t + period, of(&later), NULL, NULL);
-  problem->exact(posed, t + period / 2, of(&half), NULL, NULL);
+  problem->exact(posed, t, of(&u), NULL, NULL, NULL);
+  problem->exact(posed, t + period, of(&later), NULL, NULL, NULL);
+  problem->exact(posed, t + period / 2, of(&half), NULL, NULL, NULL);
   for (int d = 0; d < options->dim; d++)
     for (int p = 0; p < N; p++) {
       NEAR(later.store[d][p], u.store[d][p], 1e-15);
@@ -197,7 +200,7 @@ static void motion_is_periodic(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(velocity_and_gradient_are_derivatives),
+      cmocka_unit_test(velocity_gradient_and_acceleration_are_derivatives),
       cmocka_unit_test(body_force_balances_momentum),
       cmocka_unit_test(neo_hookean_body_by_hand),
       cmocka_unit_test(linear_bar_by_hand),
