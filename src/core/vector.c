@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Elementwise updates, multiversioned. */
+/* Elementwise updates and sums, multiversioned. */
 #include "vector.h"
 
 #include "kernel.h"
@@ -7,4 +7,29 @@
 GX_CLONES void gx_vector_add(size_t n, double scale, const double *restrict rate, double *restrict value)
 {
   for (size_t i = 0; i < n; i++) value[i] += scale * rate[i];
+}
+
+/* Partial results side by side: one addition need not wait for the one before. */
+enum { LANES = 8 };
+
+GX_CLONES double gx_vector_sum(size_t n, const double *restrict value)
+{
+  double part[LANES] = {0}, sum = 0;
+  size_t whole = n - n % LANES;
+  for (size_t i = 0; i < whole; i += LANES)
+    for (size_t k = 0; k < LANES; k++) part[k] += value[i + k];
+  for (size_t i = whole; i < n; i++) part[i - whole] += value[i];
+  for (int k = 0; k < LANES; k++) sum += part[k];
+  return sum;
+}
+
+GX_CLONES double gx_vector_max(size_t n, const double *restrict value)
+{
+  double part[LANES] = {0}, most = 0;
+  size_t whole = n - n % LANES;
+  for (size_t i = 0; i < whole; i += LANES)
+    for (size_t k = 0; k < LANES; k++) part[k] = value[i + k] > part[k] ? value[i + k] : part[k];
+  for (size_t i = whole; i < n; i++) most = value[i] > most ? value[i] : most;
+  for (int k = 0; k < LANES; k++) most = part[k] > most ? part[k] : most;
+  return most;
 }

@@ -19,23 +19,29 @@ struct gx_moduli gx_material_moduli(double young, double poisson, double density
   };
 }
 
-GX_CORE void cauchy(const int dim, size_t n, double *const *F, double *const *P, double *const *sigma)
+GX_CORE void cauchy_points(const int dim, size_t n, double *const *F, double *const *P, double *const *sigma)
 {
+  double *in[GX_MAX_TENSOR], *stress[GX_MAX_TENSOR];
+  double *restrict out[GX_MAX_TENSOR];
+  for (int k = 0; k < dim * dim; k++) {
+    in[k] = F[k];
+    stress[k] = P[k];
+    out[k] = sigma[k];
+  }
   for (size_t p = 0; p < n; p++) {
-    double f[GX_MAX_TENSOR], c[GX_MAX_TENSOR], s[GX_MAX_TENSOR];
-    gx_tensor_load(dim, F, p, f);
+    double f[GX_MAX_TENSOR], c[GX_MAX_TENSOR];
+    gx_tensor_load(dim, in, p, f);
     double J = gx_tensor_cofactor(dim, f, c);
     for (int i = 0; i < dim; i++)
       for (int j = 0; j < dim; j++) {
         double sum = 0;
-        for (int k = 0; k < dim; k++) sum += P[i * dim + k][p] * f[j * dim + k];
-        s[i * dim + j] = sum / J;
+        for (int k = 0; k < dim; k++) sum += stress[i * dim + k][p] * f[j * dim + k];
+        out[i * dim + j][p] = sum / J;
       }
-    gx_tensor_store(dim, sigma, p, s);
   }
 }
 
-void gx_material_cauchy(int dimension, size_t n, double *const *F, double *const *P, double *const *sigma)
+GX_CLONES void gx_material_cauchy(int dimension, size_t n, double *const *F, double *const *P, double *const *sigma)
 {
-  GX_FOR_DIM(dimension, cauchy(dim, n, F, P, sigma))
+  GX_FOR_DIM(dimension, cauchy_points(dim, n, F, P, sigma))
 }

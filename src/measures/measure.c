@@ -27,7 +27,7 @@ struct gx_measure {
   /* scratch and memory of the last sample, [n] each */
   struct vector_field v, a, v_before, a_before, exact_u, exact_v;
   struct tensor_field exact_F, exact_stress, stress, P;
-  double *energy;
+  double *scratch;
   struct vector_field cell; /* at the last sample, unwrapped */
   const int *cells;         /* per direction; NULL: particles do not move through the grid */
   double work;              /* of the kicks done so far, J */
@@ -69,7 +69,7 @@ struct gx_measure *gx_measure_create(struct gx_space *space, const struct gx_clo
   for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) at = place(vectors[i]->component, dim, n, at);
   struct tensor_field *tensors[] = {&measure->exact_F, &measure->exact_stress, &measure->stress, &measure->P};
   for (size_t i = 0; i < sizeof tensors / sizeof *tensors; i++) at = place(tensors[i]->component, tensor, n, at);
-  measure->energy = at;
+  measure->scratch = at;
   return measure;
 }
 
@@ -107,21 +107,21 @@ struct gx_work_observer gx_measure_work(struct gx_measure *measure)
   return (struct gx_work_observer){measure, measure->level == GX_MEASURE_ALL ? add_work : NULL};
 }
 
+/* square += (value - exact)^2 */
+GX_CLONES static void add_square(size_t n, const double *restrict value, const double *restrict exact, double *restrict square)
+{
+  for (size_t p = 0; p < n; p++) square[p] += (value[p] - exact[p]) * (value[p] - exact[p]);
+}
+
 static void norms(const struct gx_measure *measure, int components, double *const *value, double *const *exact, double *error)
 {
-  double largest = 0, sum = 0;
-  for (size_t p = 0; p < measure->n; p++) {
-    double square = 0;
-    for (int k = 0; k < components; k++) {
-      double e = value[k][p] - exact[k][p];
-      square += e * e;
-    }
-    if (!(square <= largest)) largest = square;
-    sum += square;
-  }
-  error[GX_INF] = sqrt(largest);
-  error[GX_RMS] = sqrt(sum / (double)measure->n);
-  error[GX_L2N] = sqrt(sum) / (double)measure->n;
+  size_t n = measure->n;
+  memset(measure->scratch, 0, n * sizeof(double));
+  for (int k = 0; k < components; k++) add_square(n, value[k], exact[k], measure->scratch);
+  double sum = gx_vector_sum(n, measure->scratch);
+  error[GX_INF] = sqrt(gx_vector_max(n, measure->scratch));
+  error[GX_RMS] = sqrt(sum / (double)n);
+  error[GX_L2N] = sqrt(sum) / (double)n;
 }
 
 static void errors(struct gx_measure *measure, double t, double error[GX_QUANTITIES][GX_NORMS])
@@ -151,31 +151,49 @@ void gx_measure_difference(const struct gx_measure *measure, const struct gx_mea
   norms(measure, dim * dim, measure->stress.component, other->stress.component, error[GX_STRESS]);
 }
 
+GX_CLONES static void multiply(size_t n, const double *restrict factor, double *restrict value)
+{
+  for (size_t p = 0; p < n; p++) value[p] *= factor[p];
+}
+
 static double potential(struct gx_measure *measure)
 {
   const struct gx_space *space = measure->space;
   const struct gx_particles *particles = space->particles;
   const struct gx_posed *posed = space->posed;
   if (space->kind->potential) return space->kind->potential(space);
-  double elastic = 0;
-  posed->problem->material->energy(&posed->options.moduli, measure->dim, measure->n, particles->F, measure->energy);
-  for (size_t p = 0; p < measure->n; p++) elastic += particles->V0[p] * measure->energy[p];
-  return elastic;
+  posed->problem->material->energy(&posed->options.moduli, measure->dim, measure->n, particles->F, measure->scratch);
+  multiply(measure->n, particles->V0, measure->scratch);
+  return gx_vector_sum(measure->n, measure->scratch);
+}
+
+/* term = m v^2 / 2 */
+GX_CLONES static void kinetic_terms(size_t n, const double *restrict m, const double *restrict v, double *restrict term)
+{
+  for (size_t p = 0; p < n; p++) term[p] = 0.5 * m[p] * v[p] * v[p];
+}
+
+/* term = m (half v0, or a quarter of v - v0) (a - a0) */
+GX_CLONES static void defect_terms(size_t n, bool first_order, const double *restrict m, const double *restrict v0,
+                                   const double *restrict v, const double *restrict a0, const double *restrict a,
+                                   double *restrict term)
+{
+  for (size_t p = 0; p < n; p++) term[p] = m[p] * (first_order ? 0.5 * v0[p] : 0.25 * (v[p] - v0[p])) * (a[p] - a0[p]);
 }
 
 static void energies(struct gx_measure *measure, double dt, struct gx_sample *sample)
 {
   const struct gx_particles *particles = measure->space->particles;
   const struct gx_posed *posed = measure->space->posed;
-  double kinetic = 0, defect = 0;
+  double kinetic = 0, defect = 0, *term = measure->scratch;
+  size_t n = measure->n;
   for (int d = 0; d < measure->dim; d++) {
-    const double *v = measure->v.component[d], *v0 = measure->v_before.component[d];
-    const double *a = measure->a.component[d], *a0 = measure->a_before.component[d];
-    for (size_t p = 0; p < measure->n; p++) {
-      kinetic += 0.5 * particles->m[p] * v[p] * v[p];
-      double pull = measure->clock->first_order_defect ? 0.5 * v0[p] : 0.25 * (v[p] - v0[p]);
-      defect += particles->m[p] * pull * (a[p] - a0[p]);
-    }
+    const double *v = measure->v.component[d];
+    kinetic_terms(n, particles->m, v, term);
+    kinetic += gx_vector_sum(n, term);
+    defect_terms(n, measure->clock->first_order_defect, particles->m, measure->v_before.component[d], v,
+                 measure->a_before.component[d], measure->a.component[d], term);
+    defect += gx_vector_sum(n, term);
   }
   sample->kinetic = kinetic;
   sample->elastic = potential(measure);
@@ -186,6 +204,13 @@ static void energies(struct gx_measure *measure, double dt, struct gx_sample *sa
     sample->work += 0.25 * dt * (body_power(particles, particles->v) + body_power(particles, measure->v.component));
 }
 
+static void swap(double **a, double **b)
+{
+  double *kept = *a;
+  *a = *b;
+  *b = kept;
+}
+
 /* Velocity and acceleration of the particles at the end of step, and the stress that belongs to their F. */
 static enum gx_status synchronise(struct gx_measure *measure, struct gx_stepper *stepper, double t, double dt)
 {
@@ -194,8 +219,8 @@ static enum gx_status synchronise(struct gx_measure *measure, struct gx_stepper 
   GX_TRY(gx_stepper_accelerate(stepper, t));
   if (space->kind->settle) space->kind->settle(space);
   for (int d = 0; d < measure->dim; d++) {
-    memcpy(measure->a_before.component[d], measure->a.component[d], measure->n * sizeof(double));
-    memcpy(measure->v_before.component[d], measure->v.component[d], measure->n * sizeof(double));
+    swap(&measure->a_before.component[d], &measure->a.component[d]);
+    swap(&measure->v_before.component[d], &measure->v.component[d]);
     memcpy(measure->v.component[d], space->particles->v[d], measure->n * sizeof(double));
   }
   if (!measure->clock->staggered && measure->level != GX_MEASURE_ALL) return GX_OK;

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Sums and maxima of arrays, at every length about the number of partial results. */
+#include "core/vector.h"
+
+#include "check.h"
+
+enum { MOST = 40 };
+
+static void sums(void **state)
+{
+  (void)state;
+  double value[MOST];
+  for (int i = 0; i < MOST; i++) value[i] = i * i - 7; /* whole numbers: exact in any order */
+  for (int n = 0; n <= MOST; n++) NEAR(gx_vector_sum((size_t)n, value), (n - 1) * n * (2 * n - 1) / 6 - 7 * n, 0);
+}
+
+static void maxima(void **state)
+{
+  (void)state;
+  for (int n = 1; n <= MOST; n++)
+    for (int at = 0; at < n; at++) {
+      double value[MOST];
+      for (int i = 0; i < n; i++) value[i] = i == at ? 3.5 : -i;
+      NEAR(gx_vector_max((size_t)n, value), 3.5, 0);
+      value[at] = NAN;
+      NEAR(gx_vector_max((size_t)n, value), 0, 0);
+    }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(sums),
+      cmocka_unit_test(maxima),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
