@@ -5,6 +5,7 @@
 
 #include <stdio.h>
 
+#include <gridcross/plot.h>
 #include <gridcross/study.h>
 #include <gridcross/table.h>
 
@@ -52,5 +53,10 @@ struct gx_study *gx_paper_study(const struct gx_paper_item *item, FILE *errors);
  *   invalid              the row does not name one case of the study, or is ill-formed; the reason says how
  * missed: how many rows have one of the last three. NULL when memory runs out. */
 struct gx_table *gx_paper_compare(const struct gx_paper_item *item, const struct gx_table *study, size_t *missed);
+
+/* The printed values of column y beside the x of their cases; rows whose value is more than that column are left out.
+ * point: [item->rows], filled. Returns how many. */
+size_t gx_paper_points(const struct gx_paper_item *item, const struct gx_table *study, const char *x, const char *y,
+                       struct gx_plot_point *point);
 
 #endif

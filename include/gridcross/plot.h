@@ -7,6 +7,11 @@
 
 #include <gridcross/table.h>
 
+/* A value that a paper prints, drawn over the lines. */
+struct gx_plot_point {
+  double x, y;
+};
+
 struct gx_plot {
   size_t studies;
   const struct gx_table *const *table; /* [studies], borrowed */
@@ -17,7 +22,9 @@ struct gx_plot {
   const char *y;                       /* lines: column, NULL: result.displacement.max.rms; history: NULL: displacement.rms */
   size_t bys;
   const char *const *by; /* [bys] paths that lead the labels of lines; the other axes follow */
-  const char *output;    /* ends in .svg, .png or .pdf */
+  size_t points;
+  const struct gx_plot_point *point; /* [points], lines: drawn as circles */
+  const char *output;                /* ends in .svg, .png or .pdf */
 };
 
 enum gx_plot_status {

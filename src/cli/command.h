@@ -3,6 +3,7 @@
 #ifndef GRIDCROSS_CLI_COMMAND_H
 #define GRIDCROSS_CLI_COMMAND_H
 
+#include <gridcross/plot.h>
 #include <gridcross/study.h>
 
 #include "options.h"
@@ -28,6 +29,9 @@ struct gx_command_studies {
 /* Returns 0, or an exit code after a message; to be freed in either case. */
 int gx_command_studies_read(struct gx_command_studies *studies, const struct gx_options *options, size_t count);
 void gx_command_studies_free(struct gx_command_studies *studies);
+
+/* The plot command with values that a paper prints; the exit code. */
+int gx_command_plot_figure(const struct gx_options *options, size_t points, const struct gx_plot_point *point);
 
 /* Threads that --jobs asks for, or 0 after a message. */
 size_t gx_command_jobs(const struct gx_options *options);

@@ -98,8 +98,18 @@ static char *place(const struct session *session, size_t index, const char *endi
   return path;
 }
 
+/* The printed values of what the figure shows. Returns how many, or -1 when memory runs out. */
+static long find_points(const struct gx_paper_item *item, const struct gx_options *options, const struct gx_table *table,
+                        struct gx_plot_point **point)
+{
+  const char *x = gx_options_value(options, "x"), *y = gx_options_value(options, "y");
+  *point = calloc(item->rows + 1, sizeof **point);
+  if (!*point) return -1;
+  return x && y ? (long)gx_paper_points(item, table, x, y, *point) : 0;
+}
+
 /* Draws as `gridcross plot STUDY <the item's options> -o FIGURE` does, printed values over ours. */
-static int draw(const struct session *session, size_t index, const char *study)
+static int draw(const struct session *session, size_t index, const char *study, const struct gx_table *table)
 {
   enum { WORDS = 32 };
   char *figure = place(session, index, ".svg"), *words = strdup(session->item[index]->plot), *rest = NULL;
@@ -112,9 +122,12 @@ static int draw(const struct session *session, size_t index, const char *study)
     argv[argc++] = to;
     argv[argc++] = figure;
     struct gx_options options;
+    struct gx_plot_point *point = NULL;
     code = gx_options_parse(&options, &gx_command_plot, argc, argv, stderr);
-    if (!code) code = gx_command_plot.run(&options);
+    long points = code ? 0 : find_points(session->item[index], &options, table, &point);
+    if (!code) code = points < 0 ? gx_command_no_memory() : gx_command_plot_figure(&options, (size_t)points, point);
     gx_options_free(&options);
+    free(point);
   } else {
     gx_command_no_memory();
   }
@@ -124,14 +137,15 @@ static int draw(const struct session *session, size_t index, const char *study)
   return code;
 }
 
-static int keep(const struct session *session, size_t index, const struct gx_study *study, const struct gx_result *results)
+static int keep(const struct session *session, size_t index, const struct gx_study *study, const struct gx_result *results,
+                const struct gx_table *table)
 {
   char *directory = place(session, index, ".study"), *line = gx_options_line(session->options);
   int code = directory && line ? GX_EXIT_DONE : gx_command_no_memory();
   const struct gx_store_run about = {.command = line};
   if (!code && (gx_store_prepare(directory, stderr) || gx_store_write(directory, study, results, &about, stderr)))
     code = GX_EXIT_FAILED;
-  if (!code && *session->item[index]->plot) code = draw(session, index, directory);
+  if (!code && *session->item[index]->plot) code = draw(session, index, directory, table);
   free(directory);
   free(line);
   return code;
@@ -231,7 +245,7 @@ static int run_item(struct session *session, size_t index)
     session->missed += missed;
     code = session->table[index] ? GX_EXIT_DONE : gx_command_no_memory();
     if (!code && !is_streamed(session)) code = print_item(item, study->title, session->table[index]);
-    if (!code && gx_options_value(session->options, "output")) code = keep(session, index, study, results);
+    if (!code && gx_options_value(session->options, "output")) code = keep(session, index, study, results, table);
     for (size_t i = 0; i < study->count; i++) gx_case_free(&results[i]);
   }
   gx_table_free(table);

@@ -47,7 +47,7 @@ static int check_kind(const char *name)
 }
 
 static int plot(const struct gx_options *options, const struct kind *kind, const struct gx_command_studies *studies,
-                const char **by)
+                const char **by, size_t points, const struct gx_plot_point *point)
 {
   char *title = studies->count == 1 ? gx_store_read_title(options->operand[0], stderr) : NULL;
   if (studies->count == 1 && !title) return GX_EXIT_USAGE;
@@ -61,6 +61,8 @@ static int plot(const struct gx_options *options, const struct kind *kind, const
       .y = gx_options_value(options, "y"),
       .bys = gx_options_values(options, "by", by),
       .by = by,
+      .points = points,
+      .point = point,
       .output = gx_options_value(options, "output"),
   };
   enum gx_plot_status status = kind->draw(&figure, stderr);
@@ -68,7 +70,7 @@ static int plot(const struct gx_options *options, const struct kind *kind, const
   return status == GX_PLOT_DONE ? GX_EXIT_DONE : status == GX_PLOT_FAILED ? GX_EXIT_FAILED : GX_EXIT_USAGE;
 }
 
-static int run(const struct gx_options *options)
+int gx_command_plot_figure(const struct gx_options *options, size_t points, const struct gx_plot_point *point)
 {
   const char *last = options->operand[options->operands - 1];
   const struct kind *kind = options->operands > 1 ? find_kind(last) : NULL;
@@ -87,10 +89,15 @@ static int run(const struct gx_options *options)
   if (!by)
     code = gx_command_no_memory();
   else if (!code)
-    code = plot(options, kind ? kind : &kinds[0], &studies, by);
+    code = plot(options, kind ? kind : &kinds[0], &studies, by, points, point);
   gx_command_studies_free(&studies);
   free(by);
   return code;
+}
+
+static int run(const struct gx_options *options)
+{
+  return gx_command_plot_figure(options, 0, NULL);
 }
 
 const struct gx_command gx_command_plot = {

@@ -15,6 +15,7 @@ struct reader {
   const char *at;
   const struct gx_table *study;
   struct gx_expression *result;
+  int columns; /* read so far */
 };
 
 __attribute__((format(printf, 2, 3))) static int ill_formed(struct reader *reader, const char *format, ...)
@@ -96,6 +97,7 @@ static int read_column(struct reader *reader, struct gx_value *value)
   if (column < 0) return ill_formed(reader, "no column '%s'", name);
   if (count != 1) return ill_formed(reader, "%zu cases for '%.*s'", count, (int)(reader->at - start), start);
   *value = gx_table_get(reader->study, found, (size_t)column);
+  reader->result->row = reader->columns++ ? -1 : (long)found;
   if (value->type == GX_INTEGER) *value = (struct gx_value){.type = GX_REAL, .real = (double)value->integer};
   if (value->type == GX_NULL) explain(reader, found);
   return 0;
@@ -121,7 +123,7 @@ static int read_factor(struct reader *reader, struct gx_value *value)
 
 struct gx_expression gx_expression_value(const char *text, const struct gx_table *study)
 {
-  struct gx_expression result = {.value.type = GX_NULL};
+  struct gx_expression result = {.row = -1, .value.type = GX_NULL};
   struct reader reader = {.at = text, .study = study, .result = &result};
   if (read_factor(&reader, &result.value)) return result;
   while (*reader.at) {

@@ -7,6 +7,7 @@
 #include <gridcross/table.h>
 
 struct gx_expression {
+  long row;                       /* of the study: the case of the only column; -1: none, or several */
   struct gx_value value;          /* GX_NULL: a case has no such result; texts borrowed from the study */
   char reason[GX_REASON_LENGTH];  /* "" when well-formed */
   char because[GX_REASON_LENGTH]; /* how a case without the result ended, "" when all ended ok */

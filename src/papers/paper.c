@@ -155,3 +155,22 @@ struct gx_table *gx_paper_compare(const struct gx_paper_item *item, const struct
   gx_table_free(table);
   return NULL;
 }
+
+size_t gx_paper_points(const struct gx_paper_item *item, const struct gx_table *study, const char *x, const char *y,
+                       struct gx_plot_point *point)
+{
+  long column_x = gx_table_find(study, x);
+  size_t count = 0, length = strlen(y);
+  for (size_t r = 0; r < item->rows && column_x >= 0; r++) {
+    const struct gx_paper_row *row = &item->row[r];
+    struct gx_expression ours = gx_expression_value(row->value, study);
+    const char *rest = row->value + length, *brace = strchr(row->value, '}');
+    bool plain = !strncmp(row->value, y, length) && (!*rest || (*rest == '{' && brace && !brace[1]));
+    if (!plain || ours.row < 0 || isnan(number(row->printed))) continue;
+    struct gx_value value = gx_table_get(study, (size_t)ours.row, (size_t)column_x);
+    if (value.type != GX_REAL && value.type != GX_INTEGER) continue;
+    point[count++] =
+        (struct gx_plot_point){.x = value.type == GX_REAL ? value.real : (double)value.integer, .y = number(row->printed)};
+  }
+  return count;
+}

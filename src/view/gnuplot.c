@@ -192,8 +192,12 @@ static void put_lines(const struct gx_figure *figure, const char *stem, FILE *ou
     const struct gx_figure_line *line = &figure->line[i];
     if (i) fputs(", \\\n     ", out);
     put_file(stem, "csv", out);
-    fprintf(out, " skip 1 every ::%zu::%zu using %d:%d with linespoints linestyle %zu title \"", line->first,
-            line->first + line->count - 1, GX_FIGURE_X + 1, GX_FIGURE_Y + 1, i + 1);
+    fprintf(out, " skip 1 every ::%zu::%zu using %d:%d with ", line->first, line->first + line->count - 1, GX_FIGURE_X + 1,
+            GX_FIGURE_Y + 1);
+    if (line->printed)
+      fputs("points pointtype 6 pointsize 2 linewidth 1.6 linecolor rgb '#000000' title \"", out);
+    else
+      fprintf(out, "linespoints linestyle %zu title \"", i + 1);
     put_part(line->label, out);
     if (!isnan(line->order)) fprintf(out, " (order %.1f)", fabs(line->order) < 0.05 ? 0 : line->order);
     putc('"', out);

@@ -143,7 +143,7 @@ static int choose_styles(struct sketch *sketch)
 static int create_data(struct sketch *sketch, size_t rows, const struct gx_column *x, const struct gx_column *y)
 {
   struct gx_figure *figure = &sketch->figure;
-  size_t lines = sketch->pivot->columns * sketch->pivot->rows;
+  size_t lines = sketch->pivot->columns * sketch->pivot->rows + 1;
   if (!(figure->line = calloc(lines + 1, sizeof *figure->line))) return -1;
   if (!(figure->data = gx_table_create(GX_FIGURE_COLUMNS, rows))) return -1;
   return gx_table_column(figure->data, GX_FIGURE_LINE, "line", "", GX_INTEGER) ||
@@ -162,6 +162,20 @@ static int add_point(struct sketch *sketch, struct gx_value x, struct gx_value y
   return gx_table_set(data, row, GX_FIGURE_LINE, (struct gx_value){.type = GX_INTEGER, .integer = (long)sketch->figure.lines}) ||
          gx_table_set(data, row, GX_FIGURE_X, x) || gx_table_set(data, row, GX_FIGURE_Y, y) ||
          gx_table_set(data, row, GX_FIGURE_LABEL, (struct gx_value){.type = GX_TEXT, .text = line->label});
+}
+
+/* What a paper prints, as a line of its own. */
+static int add_printed(struct sketch *sketch)
+{
+  const struct gx_plot *plot = sketch->plot;
+  if (!plot->points) return 0;
+  struct gx_figure_line *line = &sketch->figure.line[sketch->figure.lines++];
+  *line = (struct gx_figure_line){.label = strdup("printed"), .first = sketch->point, .order = NAN, .printed = true};
+  int failed = !line->label;
+  for (size_t i = 0; i < plot->points && !failed; i++)
+    failed = add_point(sketch, (struct gx_value){.type = GX_REAL, .real = plot->point[i].x},
+                       (struct gx_value){.type = GX_REAL, .real = plot->point[i].y});
+  return failed;
 }
 
 static int begin_line(struct sketch *sketch, size_t column, bool row_too, size_t row)
@@ -247,7 +261,7 @@ static bool numeric(const struct gx_table *table, size_t column, const char *opt
 static int fill_lines(struct sketch *sketch, size_t x, size_t y)
 {
   const struct gx_pivot *pivot = sketch->pivot;
-  int failed = create_data(sketch, pivot->table->rows, &pivot->table->column[x], &pivot->table->column[y]);
+  int failed = create_data(sketch, pivot->table->rows + sketch->plot->points, &pivot->table->column[x], &pivot->table->column[y]);
   for (size_t c = 0; c < pivot->columns && !failed; c++) {
     size_t last = 0;
     failed = begin_line(sketch, c, false, 0);
@@ -265,6 +279,7 @@ static int fill_lines(struct sketch *sketch, size_t x, size_t y)
     if (x == pivot->row_axis) sketch->figure.line[sketch->figure.lines - 1].order = gx_pivot_order(pivot, 0, last, c);
     drop_empty_line(sketch);
   }
+  if (!failed && sketch->figure.lines) failed = add_printed(sketch);
   if (!failed) sketch->figure.data->rows = sketch->point;
   return failed;
 }

@@ -3,6 +3,7 @@
 import csv
 import json
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -57,6 +58,16 @@ class Paper(unittest.TestCase):
         stem = ITEM.replace("/", "-")
         self.assertTrue((self.dir / f"kept/{stem}.study/table.csv").is_file())
         self.call(ITEM, "-o", "kept", "-q")
+
+    @unittest.skipUnless(shutil.which("gnuplot"), "gnuplot is not installed")
+    def test_printed_values_are_drawn_over_ours(self):
+        item = "berzins2021/table6"
+        rows = list(csv.DictReader(self.call(item, "-o", "kept", "--csv").stdout.splitlines()))
+        data = list(csv.DictReader((self.dir / "kept/berzins2021-table6.csv").read_text().splitlines()))
+        printed = [point for point in data if point["label"] == "printed"]
+        self.assertEqual([float(p["result.displacement.final.inf"]) for p in printed], [float(r["printed"]) for r in rows])
+        self.assertEqual([float(p["time.end"]) for p in printed], [1e-3, 1e-2, 2e-2, 0.1, 0.2, 0.5, 1])
+        self.assertIn("printed", (self.dir / "kept/berzins2021-table6.svg").read_text())
 
     def test_messages(self):
         self.assertIn("did you mean berzins2021/table4?", self.call("berzins2021/tabel4", code=2).stderr)

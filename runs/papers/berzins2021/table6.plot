@@ -1,0 +1,1 @@
+lines --x time.end --y result.displacement.final.inf
