@@ -16,6 +16,12 @@ struct gx_problem_options {
   bool active[GX_MAX_DIM];    /* directions that move */
   double phase[GX_MAX_DIM];   /* rad */
   double interpolation_error; /* oscillator: added to v in every drift, m/s */
+  /* model problems of steffen2010 §5 */
+  int knot;              /* that the first step meets half way, from 1; 0: starts at x = 0 */
+  double dt;             /* of that step, s */
+  double jump;           /* J of eq. 87, 1/s^2 */
+  bool corrected;        /* g of eq. 87 integrates to 0, else as printed */
+  double particle_width; /* m */
 };
 
 /* A problem posed at given reference points; tables of sin and cos are made once. */
@@ -34,10 +40,11 @@ struct gx_problem {
   const char *source;
   const struct gx_material *material;
   int max_dim;
-  const char *space;                          /* space that holds its equations; NULL: a continuum, method.space chooses */
-  bool has_mode, has_directions, has_poisson; /* which problem.* parameters apply */
-  bool periodic;                              /* default boundary */
-  double cycles;                              /* one period is cycles/c seconds (c: wave speed, domain length 1) */
+  const char *space; /* space that holds its equations; NULL: a continuum, method.space chooses */
+  /* which problem.* parameters apply */
+  bool has_mode, has_directions, has_poisson, has_interpolation_error, has_knots, has_jump;
+  bool periodic; /* default boundary */
+  double cycles; /* one period is cycles/c seconds (c: wave speed, domain length 1); 0: none */
   /* Exact displacement, velocity, deformation gradient and acceleration d2u/dt2 (m/s^2, [dim][n]) at time t; any output may be
    * NULL. Arrays as in gx_particles. */
   void (*exact)(const struct gx_posed *posed, double t, double *const *u, double *const *v, double *const *F, double *const *a);

@@ -66,7 +66,7 @@ struct gx_space_kind {
   bool fixed_grid;  /* particles move through the grid: projection each step by default, crossings counted */
   bool collocation; /* strong form on splines: method.degree, frame, closure, divergence; no basis, mass or transfer */
   bool nodal;       /* collocation by way of the grid's nodes */
-  bool of_problem;  /* the equations of one problem, not a choice of method.space */
+  bool of_problem;  /* the equations of certain problems, not a choice of method.space */
   /* Builds the space on particles and a posed problem (both borrowed, particles already in their initial state). */
   enum gx_status (*create)(const struct gx_space_kind *kind, struct gx_space **space, const struct gx_space_options *options,
                            struct gx_particles *particles, const struct gx_posed *posed, struct gx_outcome *outcome);
@@ -84,7 +84,7 @@ struct gx_space_kind {
   void (*rates)(struct gx_space *space, double *const *rate);
   /* Kinetic energy of the carrier of velocity: nodes with their row-sum mass, J. */
   double (*kinetic)(const struct gx_space *space);
-  /* Potential energy, J; NULL: strain energy sum V0 W(F). */
+  /* Potential energy, J; NULL: strain energy sum V0 W(F) where the material has one. */
   double (*potential)(const struct gx_space *space);
   /* Brings particles up to date with a state that lives on nodes; NULL: nothing to do. */
   void (*settle)(struct gx_space *space);
@@ -102,7 +102,9 @@ struct gx_space {
   struct gx_particles *particles; /* borrowed */
   const struct gx_posed *posed;   /* borrowed */
   struct gx_outcome *outcome;     /* borrowed: filled when a primitive fails */
-  bool through_cells;             /* particles move through the cells of mesh.cells: crossings are counted */
+  bool through_cells;             /* particles move through cells: crossings are counted */
+  const double *edge;             /* [edges] ascending, where cells of its own end, m, borrowed; NULL: the cells of mesh.cells */
+  size_t edges;
 };
 
 extern const struct gx_space_kind *const gx_space_family[];

@@ -29,7 +29,7 @@ struct gx_measure {
   struct tensor_field exact_F, exact_stress, stress, P;
   double *scratch;
   struct vector_field cell; /* at the last sample, unwrapped */
-  const int *cells;         /* per direction; NULL: particles do not move through the grid */
+  const int *cells;         /* per direction; NULL: particles do not move through cells */
   double work;              /* of the kicks done so far, J */
   double start_energy;      /* kinetic and elastic at the first sample, J */
   double start_balance;     /* the same less work, J */
@@ -49,8 +49,11 @@ struct gx_measure *gx_measure_create(struct gx_space *space, const struct gx_clo
 {
   struct gx_measure *measure = calloc(1, sizeof *measure);
   if (!measure) return NULL;
+  const struct gx_material *material = space->posed->problem->material;
   int dim = space->particles->dim, tensor = dim * dim;
   size_t n = space->particles->n;
+  if (level == GX_MEASURE_ALL && !space->kind->potential && !material->energy)
+    level = GX_MEASURE_MAX; /* there is none to measure */
   *measure = (struct gx_measure){.space = space, .clock = clock, .level = level, .cells = cells, .dim = dim, .n = n};
   measure->block = calloc(n * (size_t)(7 * dim + 4 * tensor + 1), sizeof(double));
   if (!measure->block) {
@@ -58,9 +61,9 @@ struct gx_measure *gx_measure_create(struct gx_space *space, const struct gx_clo
     return NULL;
   }
   struct gx_measured *result = &measure->result;
-  if (level == GX_MEASURE_FINAL)
-    for (int q = 0; q < GX_QUANTITIES; q++)
-      for (int k = 0; k < GX_NORMS; k++) result->max_error[q][k] = NAN;
+  for (int q = 0; q < GX_QUANTITIES; q++)
+    for (int k = 0; k < GX_NORMS; k++)
+      if (level == GX_MEASURE_FINAL || (q == GX_STRESS && !material->piola)) result->max_error[q][k] = NAN;
   if (level != GX_MEASURE_ALL) result->max_defect = result->drift = NAN;
   result->last.crossings = level == GX_MEASURE_FINAL ? NAN : 0;
   double *at = measure->block;
@@ -124,6 +127,11 @@ static void norms(const struct gx_measure *measure, int components, double *cons
   error[GX_L2N] = sqrt(sum) / (double)n;
 }
 
+static void no_stress(double error[GX_QUANTITIES][GX_NORMS])
+{
+  for (int k = 0; k < GX_NORMS; k++) error[GX_STRESS][k] = NAN;
+}
+
 static void errors(struct gx_measure *measure, double t, double error[GX_QUANTITIES][GX_NORMS])
 {
   const struct gx_particles *particles = measure->space->particles;
@@ -134,11 +142,13 @@ static void errors(struct gx_measure *measure, double t, double error[GX_QUANTIT
   size_t n = measure->n;
   double **P = measure->P.component;
   posed->problem->exact(posed, t, measure->exact_u.component, measure->exact_v.component, measure->exact_F.component, NULL);
+  norms(measure, dim, particles->u, measure->exact_u.component, error[GX_DISPLACEMENT]);
+  norms(measure, dim, measure->v.component, measure->exact_v.component, error[GX_VELOCITY]);
+  no_stress(error);
+  if (!material->piola) return;
   material->piola(moduli, dim, n, measure->exact_F.component, P);
   gx_material_cauchy(dim, n, measure->exact_F.component, P, measure->exact_stress.component);
   gx_material_cauchy(dim, n, particles->F, particles->P, measure->stress.component);
-  norms(measure, dim, particles->u, measure->exact_u.component, error[GX_DISPLACEMENT]);
-  norms(measure, dim, measure->v.component, measure->exact_v.component, error[GX_VELOCITY]);
   norms(measure, dim * dim, measure->stress.component, measure->exact_stress.component, error[GX_STRESS]);
 }
 
@@ -148,7 +158,9 @@ void gx_measure_difference(const struct gx_measure *measure, const struct gx_mea
   int dim = measure->dim;
   norms(measure, dim, measure->space->particles->u, other->space->particles->u, error[GX_DISPLACEMENT]);
   norms(measure, dim, measure->v.component, other->v.component, error[GX_VELOCITY]);
-  norms(measure, dim * dim, measure->stress.component, other->stress.component, error[GX_STRESS]);
+  no_stress(error);
+  if (measure->space->posed->problem->material->piola)
+    norms(measure, dim * dim, measure->stress.component, other->stress.component, error[GX_STRESS]);
 }
 
 GX_CLONES static void multiply(size_t n, const double *restrict factor, double *restrict value)
@@ -241,13 +253,30 @@ GX_CLONES static double moved_cell(size_t n, const double *restrict X, const dou
   return moved;
 }
 
+/* The same for cells that end at given edges. */
+static double moved_edges(size_t n, const double *X, const double *u, const struct gx_space *space, double *cell)
+{
+  double moved = 0;
+  for (size_t p = 0; p < n; p++) {
+    size_t now = 0;
+    while (now < space->edges && X[p] + u[p] >= space->edge[now]) now++;
+    moved += (double)now != cell[p];
+    cell[p] = (double)now;
+  }
+  return moved;
+}
+
 static double crossings(struct gx_measure *measure)
 {
-  const struct gx_particles *particles = measure->space->particles;
+  const struct gx_space *space = measure->space;
+  const struct gx_particles *particles = space->particles;
   if (!measure->cells || measure->level == GX_MEASURE_FINAL) return measure->result.last.crossings;
   double moved = 0;
-  for (int d = 0; d < measure->dim; d++)
-    moved += moved_cell(measure->n, particles->X[d], particles->u[d], measure->cells[d], measure->cell.component[d]);
+  for (int d = 0; d < measure->dim; d++) {
+    const double *X = particles->X[d], *u = particles->u[d];
+    double *cell = measure->cell.component[d];
+    moved += space->edge ? moved_edges(measure->n, X, u, space, cell) : moved_cell(measure->n, X, u, measure->cells[d], cell);
+  }
   return measure->started ? measure->result.last.crossings + moved : 0;
 }
 

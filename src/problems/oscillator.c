@@ -36,6 +36,7 @@ const struct gx_problem gx_oscillator = {
     .material = &spring,
     .space = "oscillator-equations",
     .max_dim = 1,
+    .has_interpolation_error = true,
     .cycles = 2,
     .exact = exact,
 };

@@ -170,7 +170,8 @@ static double estimate_stable_dt(const struct gx_case *one)
   struct gx_simulation simulation;
   struct gx_outcome outcome;
   double dt = NAN;
-  if (gx_simulation_plan(&simulation, one, &outcome) == GX_OK && is_worth_an_estimate(&simulation)) {
+  bool planned = gx_simulation_plan(&simulation, one, &outcome) == GX_OK;
+  if (planned && simulation.problem->cycles > 0 && is_worth_an_estimate(&simulation)) { /* without period nothing vibrates */
     bool projected = simulation.space_options.each_step && !simulation.clock->tableau;
     if (projected) simulation.space_options.each_step = false;
     if (projected && simulation.clock->splitting && unprojected_drift(simulation.clock->splitting) < 0)

@@ -52,6 +52,7 @@ const char *gx_rules_space_choice(int i)
     return texts[i];                                                                                                             \
   }
 CHOICE(gx_rules_boundary_choice, "periodic", "fixed")
+CHOICE(gx_rules_variant_choice, "printed", "corrected")
 CHOICE(gx_rules_layout_choice, "uniform", "gauss")
 CHOICE(gx_rules_mass_choice, "lumped", "consistent")
 CHOICE(gx_rules_transfer_choice, "flip", "pic")
@@ -100,7 +101,22 @@ bool gx_rules_divergence_applies(const struct gx_value *value)
 
 bool gx_rules_interpolation_error_applies(const struct gx_value *value)
 {
-  return !gx_rules_is_continuum(value);
+  return problem_of(value)->has_interpolation_error;
+}
+
+bool gx_rules_modulus_applies(const struct gx_value *value)
+{
+  return problem_of(value)->material->piola;
+}
+
+bool gx_rules_knot_applies(const struct gx_value *value)
+{
+  return problem_of(value)->has_knots;
+}
+
+bool gx_rules_jump_applies(const struct gx_value *value)
+{
+  return problem_of(value)->has_jump;
 }
 
 bool gx_rules_poisson_applies(const struct gx_value *value)
@@ -143,7 +159,8 @@ bool gx_rules_cfl_applies(const struct gx_value *value)
 
 bool gx_rules_periods_applies(const struct gx_value *value)
 {
-  return value[GX_TIME_END].type == GX_NULL && value[GX_TIME_STEPS].type == GX_NULL;
+  bool counted = value[GX_TIME_END].type != GX_NULL || value[GX_TIME_STEPS].type != GX_NULL;
+  return !counted && problem_of(value)->cycles > 0;
 }
 
 /* A number of steps lands where it does. */
@@ -185,6 +202,13 @@ struct gx_value gx_rules_closure_default(const struct gx_value *value)
 struct gx_value gx_rules_dt_default(const struct gx_value *value)
 {
   return gx_rules_is_continuum(value) ? (struct gx_value){.type = GX_NULL} : (struct gx_value){.type = GX_REAL, .real = 1e-3};
+}
+
+/* Without a period there is no number of periods. */
+struct gx_value gx_rules_end_default(const struct gx_value *value)
+{
+  if (problem_of(value)->cycles > 0 || value[GX_TIME_STEPS].type != GX_NULL) return (struct gx_value){.type = GX_NULL};
+  return (struct gx_value){.type = GX_REAL, .real = value[GX_TIME_START].real + 0.4};
 }
 
 struct gx_value gx_rules_projection_default(const struct gx_value *value)

@@ -11,6 +11,7 @@ const char *gx_rules_basis_choice(int i);
 const char *gx_rules_clock_choice(int i);
 const char *gx_rules_space_choice(int i);
 const char *gx_rules_boundary_choice(int i);
+const char *gx_rules_variant_choice(int i);
 const char *gx_rules_layout_choice(int i);
 const char *gx_rules_mass_choice(int i);
 const char *gx_rules_transfer_choice(int i);
@@ -31,6 +32,9 @@ bool gx_rules_is_galerkin(const struct gx_value *value);
 bool gx_rules_closure_applies(const struct gx_value *value);
 bool gx_rules_divergence_applies(const struct gx_value *value);
 bool gx_rules_interpolation_error_applies(const struct gx_value *value);
+bool gx_rules_modulus_applies(const struct gx_value *value);
+bool gx_rules_knot_applies(const struct gx_value *value);
+bool gx_rules_jump_applies(const struct gx_value *value);
 bool gx_rules_poisson_applies(const struct gx_value *value);
 bool gx_rules_mode_applies(const struct gx_value *value);
 bool gx_rules_directions_apply(const struct gx_value *value);
@@ -48,6 +52,7 @@ struct gx_value gx_rules_phases_default(const struct gx_value *value);
 struct gx_value gx_rules_degree_default(const struct gx_value *value);
 struct gx_value gx_rules_closure_default(const struct gx_value *value);
 struct gx_value gx_rules_dt_default(const struct gx_value *value);
+struct gx_value gx_rules_end_default(const struct gx_value *value);
 struct gx_value gx_rules_projection_default(const struct gx_value *value);
 
 /* Whether a free text fits the case. */

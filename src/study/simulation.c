@@ -31,6 +31,10 @@ static void read_problem(struct gx_simulation *simulation, const struct gx_case 
   options->moduli =
       gx_material_moduli(real(one, GX_PROBLEM_MODULUS, 0), real(one, GX_PROBLEM_POISSON, 0), real(one, GX_PROBLEM_DENSITY, 1));
   options->interpolation_error = real(one, GX_PROBLEM_INTERPOLATION_ERROR, 0);
+  options->knot = (int)integer(one, GX_PROBLEM_KNOT, 0);
+  options->jump = real(one, GX_PROBLEM_JUMP, 0);
+  options->corrected = is(one, GX_PROBLEM_VARIANT, "corrected");
+  options->particle_width = real(one, GX_PROBLEM_PARTICLE_WIDTH, 0);
   const struct gx_value *active = &one->value[GX_PROBLEM_ACTIVE], *phases = &one->value[GX_PROBLEM_PHASES];
   const char *phase = phases->type == GX_TEXT ? phases->text : "";
   for (int d = 0; d < options->dim; d++) {
@@ -113,6 +117,7 @@ static enum gx_status settle_steps(struct gx_simulation *simulation, const struc
   simulation->steps = counted > 0 ? counted : fmax(1, ceil(span / dt - 1e-9)); /* however short, the time asked for is run */
   if (simulation->steps > 1e15) return gx_status_set(outcome, GX_REFUSED, -1, "%.3g steps would never end", simulation->steps);
   simulation->dt = is(one, GX_TIME_LANDING, "exact") ? span / simulation->steps : dt;
+  simulation->problem_options.dt = simulation->dt;
   simulation->start = start;
   simulation->end = start + span;
   return GX_OK;
@@ -152,16 +157,21 @@ void gx_simulation_free(struct gx_simulation *simulation)
 
 double gx_simulation_kinetic_bound(const struct gx_simulation *simulation)
 {
-  enum { SAMPLES = 8 }; /* a standing wave peaks at quarters of its period */
+  enum { SAMPLES = 8 }; /* a standing wave peaks at quarters of its period, what has no period at the end */
   const struct gx_particles *particles = simulation->particles;
-  double period = simulation->problem->cycles / (simulation->posed->speed * simulation->problem_options.mode);
+  double cycles = simulation->problem->cycles, first = 0;
+  double span = cycles / (simulation->posed->speed * simulation->problem_options.mode);
+  if (cycles == 0) {
+    first = simulation->start;
+    span = simulation->end - first;
+  }
   double *v[GX_MAX_DIM], largest = 0;
   double *block = malloc(particles->n * (size_t)particles->dim * sizeof(double));
   if (!block) return INFINITY;
   for (int d = 0; d < particles->dim; d++) v[d] = block + (size_t)d * particles->n;
-  for (int i = 0; i < SAMPLES; i++) {
+  for (int i = 0; i <= SAMPLES; i++) {
     double kinetic = 0;
-    simulation->problem->exact(simulation->posed, period * i / SAMPLES, NULL, v, NULL, NULL);
+    simulation->problem->exact(simulation->posed, first + span * i / SAMPLES, NULL, v, NULL, NULL);
     for (int d = 0; d < particles->dim; d++)
       for (size_t p = 0; p < particles->n; p++) kinetic += 0.5 * particles->m[p] * v[d][p] * v[d][p];
     largest = fmax(largest, kinetic);

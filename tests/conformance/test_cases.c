@@ -50,6 +50,36 @@ static void every_method_ends_well(void **state)
           }
 }
 
+static void check_levels(struct gx_case one);
+static void check_repetition(struct gx_case one);
+
+/* The problems that bring equations of their own; a step is a hundredth of their motion. */
+static void own_equations_end_well(void **state)
+{
+  (void)state;
+  for (int p = 0; gx_problem_family[p]; p++)
+    for (int k = 0; gx_clock_family[k]; k++) {
+      const struct gx_problem *problem = gx_problem_family[p];
+      if (!problem->space) continue;
+      struct gx_case one = case_draft("problem.modulus=1");
+      case_set(&one, GX_PROBLEM_NAME, problem->name);
+      case_set(&one, GX_METHOD_CLOCK, gx_clock_family[k]->name);
+      case_set(&one, GX_TIME_DT, problem->cycles > 0 ? "0.02" : "0.004");
+      gx_parameter_resolve(one.value);
+      struct gx_result result = case_result(&one);
+      for (int q = 0; q < GX_STRESS; q++) {
+        double last = result.measured.last.error[q][GX_INF], most = result.measured.max_error[q][GX_INF];
+        CHECK(last > 0 && most >= last && most < 0.5 * M_PI, "%s %s: error %d is %g, largest %g", problem->name,
+              gx_clock_family[k]->name, q, last, most);
+      }
+      assert_int_equal(isfinite(result.measured.max_error[GX_STRESS][GX_INF]), problem->material->piola != NULL);
+      assert_int_equal(isfinite(result.measured.drift), problem->cycles > 0);
+      assert_int_equal(isfinite(result.stable_dt), problem->cycles > 0);
+      check_levels(one);
+      check_repetition(one);
+    }
+}
+
 /* Every space on every clock. */
 static void each_method(void (*check)(struct gx_case one))
 {
@@ -360,6 +390,7 @@ int main(void)
   gsl_set_error_handler_off();
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_method_ends_well),
+      cmocka_unit_test(own_equations_end_well),
       cmocka_unit_test(measuring_more_changes_nothing),
       cmocka_unit_test(repetition_gives_the_same_bits),
       cmocka_unit_test(a_wave_along_one_axis_is_the_bar),

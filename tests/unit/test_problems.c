@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Problems: exact v and F are derivatives of exact u, and the body force closes the balance of momentum,
- * rho0 d2u/dt2 = Div P + rho0 b, by numerical derivatives of P. */
+ * rho0 d2u/dt2 = Div P + rho0 b, by numerical derivatives of P. The model problems of steffen2010 §5 by hand. */
 #include <gridcross/problem.h>
 
 #include <string.h>
 
 #include "check.h"
+#include "problems/jump_model.h"
+#include "problems/quadrature_model.h"
 
 enum { N = 30 };
 
@@ -197,6 +199,78 @@ static void motion_is_periodic(void **state)
   each_problem(check_period);
 }
 
+/* steffen2010 eq. 70 */
+static double carrying_velocity(double x)
+{
+  return x < 1.0 / 3 ? 3 * x + 1 : x < 2.0 / 3 ? 6 * x : x < 5.0 / 6 ? 12 * x - 4 : 18 * x - 9;
+}
+
+/* x(t) of the model problems by hand, posed with the given knot and step. */
+static double carried_to(const char *name, int knot, double t, double *v)
+{
+  struct gx_problem_options options = {.dim = 1, .mode = 1, .knot = knot, .dt = 0.01, .jump = 1, .particle_width = 0.1};
+  double X = 0.5, u;
+  struct gx_posed *posed = gx_problem_pose(gx_problem_find(name), &options, 1, (double *[]){&X});
+  posed->problem->exact(posed, t, (double *[]){&u}, (double *[]){v}, NULL, NULL);
+  double x = gx_jump_model_start(posed) + u;
+  gx_problem_free(posed);
+  return x;
+}
+
+static void a_carried_particle_has_the_velocity_of_its_place(void **state)
+{
+  (void)state;
+  const char *const names[] = {"jump-model", "quadrature-model"};
+  const double first = log(2) / 3, second = first + log(2) / 6, third = second + log(1.5) / 12; /* 1/v from knot to knot */
+  double v;
+  for (int i = 0; i < 2; i++) {
+    NEAR(carried_to(names[i], 0, 0, &v), 0, 0);
+    NEAR(carried_to(names[i], 0, first, &v), 1.0 / 3, 1e-15);
+    NEAR(carried_to(names[i], 0, second, &v), 2.0 / 3, 1e-15);
+    NEAR(carried_to(names[i], 0, third, &v), 5.0 / 6, 1e-15);
+    NEAR(carried_to(names[i], 0, third + log(1.5) / 18, &v), 1, 1e-14); /* 6 to 9 at slope 18 */
+    NEAR(v, 9, 1e-13);
+    for (double t = 0.01; t < 0.42; t += 0.0137) {
+      const double step = 1e-5;
+      double before = carried_to(names[i], 0, t - step, &v), after = carried_to(names[i], 0, t + step, &v);
+      double x = carried_to(names[i], 0, t, &v);
+      NEAR((after - before) / (2 * step), v, 1e-4); /* a knot between the two costs 6 * 6 * step / 4 */
+      NEAR(v, carrying_velocity(x), 1e-14);
+    }
+  }
+}
+
+/* Eq. 83: half a step of 0.01 leads to the knot. */
+static void a_knot_is_met_half_way(void **state)
+{
+  (void)state;
+  const double knots[] = {1.0 / 3, 2.0 / 3, 5.0 / 6};
+  for (int k = 0; k < 3; k++) {
+    double v, x = carried_to("jump-model", k + 1, 0, &v);
+    NEAR(x + 0.005 * carrying_velocity(x), knots[k], 1e-15);
+    NEAR(gx_jump_model_velocity(knots[k]), gx_jump_model_velocity(knots[k] - 1e-14), 1e-12);
+    NEAR(v, carrying_velocity(x), 1e-14);
+  }
+}
+
+/* J (-1/3 + 1/6 + 3/2 1/6) as printed, half of the second term as corrected; the midpoint rule on [x - 1/8, x + 1/8] by hand. */
+static void the_external_acceleration_is_a_quadrature_error(void **state)
+{
+  (void)state;
+  struct gx_problem_options printed = {.jump = 2}, corrected = {.jump = 2, .corrected = true};
+  for (double x = 0.04; x < 1; x += 0.1) { /* a particle without width errs nowhere */
+    NEAR(gx_quadrature_model_acceleration(&printed, x), 2.0 / 12, 1e-15);
+    NEAR(gx_quadrature_model_acceleration(&corrected, x), 0, 1e-15);
+  }
+  printed.particle_width = corrected.particle_width = 0.25;
+  NEAR(gx_quadrature_model_acceleration(&corrected, 0.2), 0, 1e-15);                              /* within a piece */
+  NEAR(gx_quadrature_model_acceleration(&corrected, 0.3), -2 * (0.425 - 1.0 / 3), 1e-15);         /* takes -J beyond 1/3 */
+  NEAR(gx_quadrature_model_acceleration(&corrected, 0.4), 2 * (1.0 / 3 - 0.275), 1e-15);          /* takes 0 before it */
+  NEAR(gx_quadrature_model_acceleration(&printed, 0.7), 2 * (1.0 / 12 + 2.0 / 3 - 0.575), 1e-15); /* J before 2/3 */
+  NEAR(gx_quadrature_model_acceleration(&corrected, 0), -2 * 0.125, 1e-15);                       /* half of it outside */
+  NEAR(gx_quadrature_model_acceleration(&corrected, 0.95), 2 * 1.5 * 0.075 + 2 * (5.0 / 6 - 0.825), 1e-15);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -205,6 +279,9 @@ int main(void)
       cmocka_unit_test(neo_hookean_body_by_hand),
       cmocka_unit_test(linear_bar_by_hand),
       cmocka_unit_test(motion_is_periodic),
+      cmocka_unit_test(a_carried_particle_has_the_velocity_of_its_place),
+      cmocka_unit_test(a_knot_is_met_half_way),
+      cmocka_unit_test(the_external_acceleration_is_a_quadrature_error),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Orders on the model problems of steffen2010 §5. */
+#include <gsl/gsl_errno.h>
+
+#include "case_of.h"
+
+static double error_of(const struct gx_clock *clock, const char *end, double dt)
+{
+  struct gx_case one = case_draft("problem.name=jump-model", "output.measures=final");
+  case_set(&one, GX_METHOD_CLOCK, clock->name);
+  case_set(&one, GX_TIME_END, end);
+  case_set_real(&one, GX_TIME_DT, dt);
+  gx_parameter_resolve(one.value);
+  return case_result(&one).measured.last.error[GX_DISPLACEMENT][GX_INF];
+}
+
+static bool uses_both_ends(const struct gx_clock *clock)
+{
+  for (const struct gx_row *row = clock->rows; row && row->primitive != GX_END; row++)
+    if (row->primitive == GX_CLOSE) return true;
+  return false;
+}
+
+/* Before the first knot. A drift keeps the velocity of where it started, so a clock of drifts moves through a field at order 1,
+ * whatever its own; the average over both ends of a step is Heun's method; stages of rates keep their order. */
+static void drifts_through_a_field_are_of_order_one(void **state)
+{
+  (void)state;
+  for (size_t i = 0; gx_clock_family[i]; i++) {
+    const struct gx_clock *clock = gx_clock_family[i];
+    int order = clock->tableau ? clock->order : uses_both_ends(clock) ? 2 : 1;
+    double before = error_of(clock, "0.2", 0.0025), after = error_of(clock, "0.2", 0.00125);
+    CHECK(fabs(log2(before / after) - order) < 0.05, "%s: order %.3f, not %d", clock->name, log2(before / after), order);
+  }
+}
+
+/* Past all knots: the same, since a jump of the slope costs dt^2 once. */
+static void euler_passes_knots_at_order_one(void **state)
+{
+  (void)state;
+  const struct gx_clock *euler = gx_clock_find("euler-stress-last");
+  NEAR(log2(error_of(euler, "0.4", 1e-4) / error_of(euler, "0.4", 5e-5)), 1, 0.02);
+}
+
+int main(void)
+{
+  gsl_set_error_handler_off();
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(drifts_through_a_field_are_of_order_one),
+      cmocka_unit_test(euler_passes_knots_at_order_one),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
