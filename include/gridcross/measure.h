@@ -21,11 +21,19 @@ struct gx_sample {
   double crossings;                      /* changes of cell so far */
 };
 
+/* One particle at the end of a step, by component. */
+struct gx_probe {
+  double u[GX_MAX_DIM], v[GX_MAX_DIM], a[GX_MAX_DIM]; /* displacement, velocity, acceleration; m, m/s, m/s^2 */
+  double u_error[GX_MAX_DIM], v_error[GX_MAX_DIM];    /* less the exact ones */
+};
+
 struct gx_measured {
   struct gx_sample last;
   double max_error[GX_QUANTITIES][GX_NORMS];
   double max_defect;
   double drift; /* max |E - E0 - work| / E0; NaN when E0 = 0 */
+  double
+      probe_change; /* m/s^2: largest change of the probe's acceleration over a step that leaves it in its cell; NaN: no probe */
 };
 
 struct gx_measure;
@@ -35,6 +43,10 @@ struct gx_measure;
 struct gx_measure *gx_measure_create(struct gx_space *space, const struct gx_clock *clock, const int *cells,
                                      enum gx_measure_level level);
 void gx_measure_free(struct gx_measure *measure);
+/* Follows one particle from now on; before the first sample. */
+void gx_measure_follow(struct gx_measure *measure, size_t particle);
+/* Where it was at the last sample. */
+const struct gx_probe *gx_measure_probe(const struct gx_measure *measure);
 /* What the stepper must call for the work of the body force. */
 struct gx_work_observer gx_measure_work(struct gx_measure *measure);
 /* Takes the sample at time t: the start, then ends of steps, every one of them unless only the last matters. */

@@ -38,7 +38,9 @@ void gx_runfile_free(struct gx_study *study);
 
 struct gx_history {
   size_t samples;
-  struct gx_sample *sample; /* owned */
+  struct gx_sample *sample; /* [samples], owned */
+  struct gx_probe *probe;   /* [samples], owned; NULL: none asked for */
+  int dim;                  /* components of the probe's vectors */
 };
 
 struct gx_result {
@@ -48,6 +50,7 @@ struct gx_result {
   double time;      /* s, reached */
   double stable_dt; /* s, estimated at the start; 0: no step is stable; NaN: unknown */
   struct gx_measured measured;
+  long probe;                                /* index of the particle followed; -1: none */
   double reference[GX_QUANTITIES][GX_NORMS]; /* final state less that of dt / output.reference; NaN: not asked */
   double seconds;                            /* processor time of the steps, measures excluded */
   double ns_per_particle_step;               /* NaN: no step was taken */
@@ -80,7 +83,8 @@ void gx_study_run(const struct gx_study *study, size_t threads, const struct gx_
 
 /* Columns case, every parameter, every result; timing columns last and only if asked. results: [count]. NULL when memory runs out. */
 struct gx_table *gx_study_table(const struct gx_study *study, const struct gx_result *results, bool timing);
-/* One row a sample: time, displacement.inf, ..., energy.kinetic, ..., crossings. NULL when memory runs out. */
+/* One row a sample: time, displacement.inf, ..., energy.kinetic, ..., crossings; with output.probe also probe.displacement, ...,
+ * in 2-D and 3-D by component, probe.displacement.x. NULL when memory runs out. */
 struct gx_table *gx_study_table_history(const struct gx_result *result);
 
 #endif

@@ -30,6 +30,8 @@ struct gx_measure {
   double *scratch;
   struct vector_field cell; /* at the last sample, unwrapped */
   const int *cells;         /* per direction; NULL: particles do not move through cells */
+  long followed;            /* -1: no probe */
+  struct gx_probe probe;    /* at the last sample */
   double work;              /* of the kicks done so far, J */
   double start_energy;      /* kinetic and elastic at the first sample, J */
   double start_balance;     /* the same less work, J */
@@ -54,7 +56,8 @@ struct gx_measure *gx_measure_create(struct gx_space *space, const struct gx_clo
   size_t n = space->particles->n;
   if (level == GX_MEASURE_ALL && !space->kind->potential && !material->energy)
     level = GX_MEASURE_MAX; /* there is none to measure */
-  *measure = (struct gx_measure){.space = space, .clock = clock, .level = level, .cells = cells, .dim = dim, .n = n};
+  *measure =
+      (struct gx_measure){.space = space, .clock = clock, .level = level, .cells = cells, .followed = -1, .dim = dim, .n = n};
   measure->block = calloc(n * (size_t)(7 * dim + 4 * tensor + 1), sizeof(double));
   if (!measure->block) {
     free(measure);
@@ -65,6 +68,7 @@ struct gx_measure *gx_measure_create(struct gx_space *space, const struct gx_clo
     for (int k = 0; k < GX_NORMS; k++)
       if (level == GX_MEASURE_FINAL || (q == GX_STRESS && !material->piola)) result->max_error[q][k] = NAN;
   if (level != GX_MEASURE_ALL) result->max_defect = result->drift = NAN;
+  result->probe_change = NAN;
   result->last.crossings = level == GX_MEASURE_FINAL ? NAN : 0;
   double *at = measure->block;
   struct vector_field *vectors[] = {&measure->v,       &measure->a,       &measure->v_before, &measure->a_before,
@@ -86,6 +90,17 @@ void gx_measure_free(struct gx_measure *measure)
 const struct gx_measured *gx_measure_result(const struct gx_measure *measure)
 {
   return &measure->result;
+}
+
+void gx_measure_follow(struct gx_measure *measure, size_t particle)
+{
+  measure->followed = (long)particle;
+  if (measure->level != GX_MEASURE_FINAL) measure->result.probe_change = 0;
+}
+
+const struct gx_probe *gx_measure_probe(const struct gx_measure *measure)
+{
+  return &measure->probe;
 }
 
 /* Power of the body force at the particles' present velocity, W. */
@@ -235,7 +250,7 @@ static enum gx_status synchronise(struct gx_measure *measure, struct gx_stepper 
     swap(&measure->v_before.component[d], &measure->v.component[d]);
     memcpy(measure->v.component[d], space->particles->v[d], measure->n * sizeof(double));
   }
-  if (!measure->clock->staggered && measure->level != GX_MEASURE_ALL) return GX_OK;
+  if (!measure->clock->staggered && measure->level != GX_MEASURE_ALL && measure->followed < 0) return GX_OK;
   space->kind->particle_acceleration(space, measure->a.component);
   for (int d = 0; d < measure->dim; d++) gx_vector_add(measure->n, ahead, measure->a.component[d], measure->v.component[d]);
   return GX_OK;
@@ -280,6 +295,29 @@ static double crossings(struct gx_measure *measure)
   return measure->started ? measure->result.last.crossings + moved : 0;
 }
 
+/* cell: of the probe one sample before. */
+static void follow(struct gx_measure *measure, const double *cell)
+{
+  const size_t p = (size_t)measure->followed;
+  const struct gx_particles *particles = measure->space->particles;
+  struct gx_probe *probe = &measure->probe;
+  double square = 0;
+  bool stayed = true;
+  for (int d = 0; d < measure->dim; d++) {
+    stayed = stayed && measure->cell.component[d][p] == cell[d];
+    double a = measure->a.component[d][p], change = a - probe->a[d];
+    square += change * change;
+    probe->a[d] = a;
+    probe->u[d] = particles->u[d][p];
+    probe->v[d] = measure->v.component[d][p];
+    probe->u_error[d] = probe->u[d] - measure->exact_u.component[d][p];
+    probe->v_error[d] = probe->v[d] - measure->exact_v.component[d][p];
+  }
+  struct gx_measured *result = &measure->result;
+  if (measure->started && stayed && measure->level != GX_MEASURE_FINAL)
+    result->probe_change = fmax(result->probe_change, sqrt(square));
+}
+
 static void keep_extremes(struct gx_measure *measure, const struct gx_sample *sample)
 {
   struct gx_measured *result = &measure->result;
@@ -301,11 +339,15 @@ static void keep_extremes(struct gx_measure *measure, const struct gx_sample *sa
 
 enum gx_status gx_measure_take(struct gx_measure *measure, struct gx_stepper *stepper, double t, double dt)
 {
+  double cell[GX_MAX_DIM]; /* of the probe at the last sample */
   struct gx_sample sample = {.time = t, .kinetic = NAN, .kinetic_nodes = NAN, .elastic = NAN, .work = NAN, .defect = NAN};
   GX_TRY(synchronise(measure, stepper, t, dt));
   errors(measure, t, sample.error);
   if (measure->level == GX_MEASURE_ALL) energies(measure, dt, &sample);
+  if (measure->followed >= 0)
+    for (int d = 0; d < measure->dim; d++) cell[d] = measure->cell.component[d][measure->followed];
   sample.crossings = crossings(measure);
+  if (measure->followed >= 0) follow(measure, cell);
   keep_extremes(measure, &sample);
   measure->result.last = sample;
   measure->started = true;

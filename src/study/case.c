@@ -39,6 +39,39 @@ static enum gx_measure_level level_of(const struct gx_case *one)
   return !strcmp(level, "final") ? GX_MEASURE_FINAL : !strcmp(level, "max") ? GX_MEASURE_MAX : GX_MEASURE_ALL;
 }
 
+/* The particle whose reference position is nearest to the coordinates in a text of one number a dimension. */
+static size_t nearest_particle(const struct gx_particles *particles, const char *text)
+{
+  double point[GX_MAX_DIM], least = INFINITY;
+  size_t nearest = 0;
+  for (int d = 0; d < particles->dim; d++) {
+    char *rest;
+    point[d] = strtod(text, &rest);
+    text = rest;
+  }
+  for (size_t p = 0; p < particles->n; p++) {
+    double square = 0;
+    for (int d = 0; d < particles->dim; d++) square += (particles->X[d][p] - point[d]) * (particles->X[d][p] - point[d]);
+    if (square < least) {
+      least = square;
+      nearest = p;
+    }
+  }
+  return nearest;
+}
+
+static enum gx_status prepare_history(struct run *run)
+{
+  struct gx_history *history = &run->result->history;
+  double samples = floor(run->simulation.steps / run->history_every) + 2;
+  bool probed = run->result->probe >= 0, fits = samples < 1e9;
+  history->dim = run->simulation.particles->dim;
+  history->sample = fits ? malloc((size_t)samples * sizeof *history->sample) : NULL;
+  history->probe = fits && probed ? malloc((size_t)samples * sizeof *history->probe) : NULL;
+  if (history->sample && (history->probe || !probed)) return GX_OK;
+  return gx_status_set(&run->result->outcome, GX_FAILED, -1, "out of memory for %.3g history samples", samples);
+}
+
 /* refine: divides the time step. */
 static enum gx_status prepare(struct run *run, const struct gx_case *one, double refine)
 {
@@ -59,12 +92,11 @@ static enum gx_status prepare(struct run *run, const struct gx_case *one, double
   struct gx_work_observer observer = gx_measure_work(run->measure);
   run->stepper = gx_stepper_create(simulation->clock, simulation->space, &observer);
   if (!run->stepper) return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the clock");
-  if (run->history_every > 0) {
-    double samples = floor(simulation->steps / run->history_every) + 2;
-    run->result->history.sample = samples < 1e9 ? malloc((size_t)samples * sizeof(struct gx_sample)) : NULL;
-    if (!run->result->history.sample)
-      return gx_status_set(outcome, GX_FAILED, -1, "out of memory for %.3g history samples", samples);
+  if (one->value[GX_OUTPUT_PROBE].type == GX_TEXT) {
+    run->result->probe = (long)nearest_particle(simulation->particles, one->value[GX_OUTPUT_PROBE].text);
+    gx_measure_follow(run->measure, (size_t)run->result->probe);
   }
+  if (run->history_every > 0) GX_TRY(prepare_history(run));
   double m = 0, c = simulation->posed->speed;
   for (size_t p = 0; p < simulation->particles->n; p++) m += simulation->particles->m[p];
   /* 5 times the exact solution's speed, and room for round-off when it does not move */
@@ -97,7 +129,9 @@ static enum gx_status take_sample(struct run *run, double step)
   GX_TRY(gx_measure_take(run->measure, run->stepper, run->time, simulation->dt));
   if (timed) run->timed_seconds += seconds_now() - before - (before - reading);
   run->timed += timed;
-  if (kept) run->result->history.sample[run->result->history.samples++] = gx_measure_result(run->measure)->last;
+  struct gx_history *history = &run->result->history;
+  if (kept && history->probe) history->probe[history->samples] = *gx_measure_probe(run->measure);
+  if (kept) history->sample[history->samples++] = gx_measure_result(run->measure)->last;
   return GX_OK;
 }
 
@@ -189,6 +223,7 @@ static void compare_with_reference(const struct run *run, const struct gx_case *
   struct gx_case final_only = *one;
   final_only.value[GX_OUTPUT_MEASURES].text = "final";
   final_only.value[GX_OUTPUT_HISTORIES].integer = 0;
+  final_only.value[GX_OUTPUT_PROBE].type = GX_NULL;
   struct gx_result result = {.outcome = {.status = GX_OK, .particle = -1}};
   struct run fine = {.result = &result};
   if (prepare(&fine, &final_only, refine) == GX_OK && march(&fine) == GX_OK)
@@ -202,7 +237,7 @@ static void compare_with_reference(const struct run *run, const struct gx_case *
 struct gx_result gx_case_run(const struct gx_case *one)
 {
   struct gx_result result = {
-      .outcome = {.status = GX_OK, .particle = -1}, .dt = NAN, .stable_dt = NAN, .ns_per_particle_step = NAN};
+      .outcome = {.status = GX_OK, .particle = -1}, .dt = NAN, .stable_dt = NAN, .probe = -1, .ns_per_particle_step = NAN};
   for (int q = 0; q < GX_QUANTITIES; q++)
     for (int k = 0; k < GX_NORMS; k++) result.reference[q][k] = NAN;
   struct run run = {.result = &result};
@@ -222,6 +257,7 @@ struct gx_result gx_case_run(const struct gx_case *one)
 void gx_case_free(struct gx_result *result)
 {
   free(result->history.sample);
+  free(result->history.probe);
   result->history = (struct gx_history){0};
 }
 

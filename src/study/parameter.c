@@ -347,6 +347,13 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                              .standard = "0",
                              .help = "keep a sample of every measure each so many steps; 0: none",
                              .why = "a table needs none"},
+    [GX_OUTPUT_PROBE] = {.path = "output.probe",
+                         .type = GX_TEXT,
+                         .unit = "m",
+                         .well_formed = gx_rules_probe_well_formed,
+                         .help = "reference coordinates, one number from 0 to 1 a dimension, such as 0.3 or 0.3 0.7; the nearest "
+                                 "particle is followed in histories",
+                         .why = "none: norms are over all particles"},
     [GX_OUTPUT_REFERENCE] = {.path = "output.reference",
                              .type = GX_INTEGER,
                              .unit = "",

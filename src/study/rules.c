@@ -2,6 +2,7 @@
 /* Rules that the parameter table refers to: choices, where parameters apply, defaults that depend on others, free texts. */
 #include "rules.h"
 
+#include <math.h>
 #include <string.h>
 
 #include <gridcross/basis.h>
@@ -226,19 +227,30 @@ bool gx_rules_active_well_formed(const char *text, const struct gx_value *value)
   return *text && !*s;
 }
 
-bool gx_rules_phases_well_formed(const char *text, const struct gx_value *value)
+/* Whether the text is one number a dimension, each from least to most. */
+static bool are_numbers(const char *text, const struct gx_value *value, double least, double most)
 {
   long numbers = 0;
   while (*(text += strspn(text, " "))) {
     char word[64];
-    double ignored;
+    double number;
     size_t length = strcspn(text, " ");
     if (length >= sizeof word) return false;
     memcpy(word, text, length);
     word[length] = '\0';
-    if (gx_number_real(word, &ignored)) return false;
+    if (gx_number_real(word, &number) || number < least || number > most) return false;
     text += length;
     numbers++;
   }
   return numbers == value[GX_PROBLEM_DIMENSION].integer;
+}
+
+bool gx_rules_phases_well_formed(const char *text, const struct gx_value *value)
+{
+  return are_numbers(text, value, -INFINITY, INFINITY);
+}
+
+bool gx_rules_probe_well_formed(const char *text, const struct gx_value *value)
+{
+  return are_numbers(text, value, 0, 1);
 }

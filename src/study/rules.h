@@ -57,6 +57,7 @@ struct gx_value gx_rules_projection_default(const struct gx_value *value);
 
 /* Whether a free text fits the case. */
 bool gx_rules_active_well_formed(const char *text, const struct gx_value *value);
+bool gx_rules_probe_well_formed(const char *text, const struct gx_value *value);
 bool gx_rules_phases_well_formed(const char *text, const struct gx_value *value);
 
 #endif

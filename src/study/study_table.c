@@ -74,10 +74,31 @@ static void put_case(struct cursor *at, const struct gx_case *one, const struct 
   put_real(at, "result.energy.defect", "J", ok ? measured->max_defect : NAN);
   put_real(at, "result.energy.drift", "", ok ? measured->drift : NAN);
   for (int q = 0; q < GX_QUANTITIES; q++) put_errors(at, "result.", ".reference", result->reference, q, ok);
+  put_count(at, "result.probe.particle", ran && one->value[GX_OUTPUT_PROBE].type == GX_TEXT ? (double)result->probe : NAN);
+  put_real(at, "result.probe.acceleration_change", "m/s^2", ok ? measured->probe_change : NAN);
   put_real(at, "result.stable_dt", "s", ran ? result->stable_dt : NAN);
   if (!timing) return;
   put_real(at, "result.seconds", "s", ran ? result->seconds : NAN);
   put_real(at, "result.ns_per_particle_step", "ns", ran ? result->ns_per_particle_step : NAN);
+}
+
+/* One column in 1-D, one a component in 2-D and 3-D. */
+static void put_vector(struct cursor *at, const char *name, const char *unit, int dim, const double *vector)
+{
+  for (int d = 0; d < dim; d++) {
+    char full[80];
+    snprintf(full, sizeof full, dim > 1 ? "%s.%c" : "%s", name, "xyz"[d]);
+    put_real(at, full, unit, vector[d]);
+  }
+}
+
+static void put_probe(struct cursor *at, int dim, const struct gx_probe *probe)
+{
+  put_vector(at, "probe.displacement", "m", dim, probe->u);
+  put_vector(at, "probe.velocity", "m/s", dim, probe->v);
+  put_vector(at, "probe.acceleration", "m/s^2", dim, probe->a);
+  put_vector(at, "probe.displacement_error", "m", dim, probe->u_error);
+  put_vector(at, "probe.velocity_error", "m/s", dim, probe->v_error);
 }
 
 static void put_sample(struct cursor *at, const struct gx_sample *sample)
@@ -116,18 +137,27 @@ struct gx_table *gx_study_table(const struct gx_study *study, const struct gx_re
   return finish(&at);
 }
 
+static void put_row(struct cursor *at, const struct gx_history *history, const struct gx_sample *sample,
+                    const struct gx_probe *probe)
+{
+  put_sample(at, sample);
+  if (history->probe) put_probe(at, history->dim, probe);
+}
+
 struct gx_table *gx_study_table_history(const struct gx_result *result)
 {
   static const struct gx_sample no_sample;
+  static const struct gx_probe no_probe;
+  const struct gx_history *history = &result->history;
   struct cursor at = {0};
-  put_sample(&at, &no_sample);
-  at = (struct cursor){.table = gx_table_create(at.column, result->history.samples), .naming = true};
+  put_row(&at, history, &no_sample, &no_probe);
+  at = (struct cursor){.table = gx_table_create(at.column, history->samples), .naming = true};
   if (!at.table) return NULL;
-  put_sample(&at, &no_sample);
+  put_row(&at, history, &no_sample, &no_probe);
   at.naming = false;
-  for (at.row = 0; at.row < result->history.samples; at.row++) {
+  for (at.row = 0; at.row < history->samples; at.row++) {
     at.column = 0;
-    put_sample(&at, &result->history.sample[at.row]);
+    put_row(&at, history, &history->sample[at.row], history->probe ? &history->probe[at.row] : NULL);
   }
   return finish(&at);
 }
