@@ -19,11 +19,14 @@ struct gx_sample {
   double elastic, work;                  /* J: strain energy, work of the body force since t = 0 */
   double defect;                         /* J: energy defect of the step that ended here */
   double crossings;                      /* changes of cell so far */
+  double jump[GX_NORMS];                 /* m: of the particles' jump errors, summed up so far */
+  double jump_step;                      /* m: largest jump error of the step that ended here, with its sign; 0: no crossing */
 };
 
 /* One particle at the end of a step, by component. */
 struct gx_probe {
   double u[GX_MAX_DIM], v[GX_MAX_DIM], a[GX_MAX_DIM]; /* displacement, velocity, acceleration; m, m/s, m/s^2 */
+  double jump[GX_MAX_DIM];                            /* jump errors summed up, m; NaN: not measured */
   double u_error[GX_MAX_DIM], v_error[GX_MAX_DIM];    /* less the exact ones */
 };
 
@@ -31,9 +34,10 @@ struct gx_measured {
   struct gx_sample last;
   double max_error[GX_QUANTITIES][GX_NORMS];
   double max_defect;
-  double drift; /* max |E - E0 - work| / E0; NaN when E0 = 0 */
-  double
-      probe_change; /* m/s^2: largest change of the probe's acceleration over a step that leaves it in its cell; NaN: no probe */
+  double max_jump[GX_NORMS];
+  double last_jump, estimated_jump; /* m: jump error of the last crossing, steffen2010 eq. 86, and minus eq. 85; NaN: none */
+  double drift;                     /* max |E - E0 - work| / E0; NaN when E0 = 0 */
+  double probe_change; /* m/s^2: largest change of the probe's acceleration over a step within one cell; NaN: no probe */
 };
 
 struct gx_measure;
@@ -43,6 +47,10 @@ struct gx_measure;
 struct gx_measure *gx_measure_create(struct gx_space *space, const struct gx_clock *clock, const int *cells,
                                      enum gx_measure_level level);
 void gx_measure_free(struct gx_measure *measure);
+/* Measures jump errors from now on; before the first sample, of a space with cells and a field. -1 when memory runs out. */
+int gx_measure_jumps(struct gx_measure *measure);
+/* After each step of dt when jump errors are measured, before anything else. */
+void gx_measure_step(struct gx_measure *measure, double dt);
 /* Follows one particle from now on; before the first sample. */
 void gx_measure_follow(struct gx_measure *measure, size_t particle);
 /* Where it was at the last sample. */

@@ -63,7 +63,7 @@ struct gx_space_kind {
   const char *name;
   const char *help;
   const char *source;
-  bool fixed_grid;  /* particles move through the grid: projection each step by default, crossings counted */
+  bool fixed_grid;  /* particles move through the grid: projection each step by default, crossings counted, a field */
   bool collocation; /* strong form on splines: method.degree, frame, closure, divergence; no basis, mass or transfer */
   bool nodal;       /* collocation by way of the grid's nodes */
   bool of_problem;  /* the equations of certain problems, not a choice of method.space */

@@ -41,6 +41,7 @@ struct gx_history {
   struct gx_sample *sample; /* [samples], owned */
   struct gx_probe *probe;   /* [samples], owned; NULL: none asked for */
   int dim;                  /* components of the probe's vectors */
+  bool jumps;               /* jump errors were measured */
 };
 
 struct gx_result {
@@ -83,8 +84,8 @@ void gx_study_run(const struct gx_study *study, size_t threads, const struct gx_
 
 /* Columns case, every parameter, every result; timing columns last and only if asked. results: [count]. NULL when memory runs out. */
 struct gx_table *gx_study_table(const struct gx_study *study, const struct gx_result *results, bool timing);
-/* One row a sample: time, displacement.inf, ..., energy.kinetic, ..., crossings; with output.probe also probe.displacement, ...,
- * in 2-D and 3-D by component, probe.displacement.x. NULL when memory runs out. */
+/* One row a sample: time, displacement.inf, ..., energy.kinetic, ..., crossings; with output.jumps also jump.step, jump.inf, ...;
+ * with output.probe also probe.displacement, ..., in 2-D and 3-D by component, probe.displacement.x. NULL when memory runs out. */
 struct gx_table *gx_study_table_history(const struct gx_result *result);
 
 #endif

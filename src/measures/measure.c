@@ -9,6 +9,7 @@
 
 #include "../core/kernel.h"
 #include "../core/vector.h"
+#include "jump.h"
 
 struct tensor_field {
   double *component[GX_MAX_TENSOR];
@@ -30,6 +31,7 @@ struct gx_measure {
   double *scratch;
   struct vector_field cell; /* at the last sample, unwrapped */
   const int *cells;         /* per direction; NULL: particles do not move through cells */
+  struct gx_jump *jump;     /* NULL: not measured */
   long followed;            /* -1: no probe */
   struct gx_probe probe;    /* at the last sample */
   double work;              /* of the kicks done so far, J */
@@ -68,7 +70,8 @@ struct gx_measure *gx_measure_create(struct gx_space *space, const struct gx_clo
     for (int k = 0; k < GX_NORMS; k++)
       if (level == GX_MEASURE_FINAL || (q == GX_STRESS && !material->piola)) result->max_error[q][k] = NAN;
   if (level != GX_MEASURE_ALL) result->max_defect = result->drift = NAN;
-  result->probe_change = NAN;
+  result->probe_change = result->last_jump = result->estimated_jump = NAN;
+  for (int k = 0; k < GX_NORMS; k++) result->max_jump[k] = NAN;
   result->last.crossings = level == GX_MEASURE_FINAL ? NAN : 0;
   double *at = measure->block;
   struct vector_field *vectors[] = {&measure->v,       &measure->a,       &measure->v_before, &measure->a_before,
@@ -83,6 +86,7 @@ struct gx_measure *gx_measure_create(struct gx_space *space, const struct gx_clo
 void gx_measure_free(struct gx_measure *measure)
 {
   if (!measure) return;
+  gx_jump_free(measure->jump);
   free(measure->block);
   free(measure);
 }
@@ -90,6 +94,20 @@ void gx_measure_free(struct gx_measure *measure)
 const struct gx_measured *gx_measure_result(const struct gx_measure *measure)
 {
   return &measure->result;
+}
+
+int gx_measure_jumps(struct gx_measure *measure)
+{
+  measure->jump = gx_jump_create(measure->space, measure->cells);
+  for (int k = 0; k < GX_NORMS && measure->level != GX_MEASURE_FINAL; k++) measure->result.max_jump[k] = 0;
+  return measure->jump ? 0 : -1;
+}
+
+void gx_measure_step(struct gx_measure *measure, double dt)
+{
+  gx_jump_step(measure->jump, dt);
+  measure->result.last_jump = measure->jump->last;
+  measure->result.estimated_jump = measure->jump->estimate;
 }
 
 void gx_measure_follow(struct gx_measure *measure, size_t particle)
@@ -131,15 +149,21 @@ GX_CLONES static void add_square(size_t n, const double *restrict value, const d
   for (size_t p = 0; p < n; p++) square[p] += (value[p] - exact[p]) * (value[p] - exact[p]);
 }
 
-static void norms(const struct gx_measure *measure, int components, double *const *value, double *const *exact, double *error)
+/* Of vectors whose squares are in scratch. */
+static void norms_of_squares(const struct gx_measure *measure, double *error)
 {
   size_t n = measure->n;
-  memset(measure->scratch, 0, n * sizeof(double));
-  for (int k = 0; k < components; k++) add_square(n, value[k], exact[k], measure->scratch);
   double sum = gx_vector_sum(n, measure->scratch);
   error[GX_INF] = sqrt(gx_vector_max(n, measure->scratch));
   error[GX_RMS] = sqrt(sum / (double)n);
   error[GX_L2N] = sqrt(sum) / (double)n;
+}
+
+static void norms(const struct gx_measure *measure, int components, double *const *value, double *const *exact, double *error)
+{
+  memset(measure->scratch, 0, measure->n * sizeof(double));
+  for (int k = 0; k < components; k++) add_square(measure->n, value[k], exact[k], measure->scratch);
+  norms_of_squares(measure, error);
 }
 
 static void no_stress(double error[GX_QUANTITIES][GX_NORMS])
@@ -309,6 +333,7 @@ static void follow(struct gx_measure *measure, const double *cell)
     square += change * change;
     probe->a[d] = a;
     probe->u[d] = particles->u[d][p];
+    probe->jump[d] = measure->jump ? measure->jump->sum[d][p] : NAN;
     probe->v[d] = measure->v.component[d][p];
     probe->u_error[d] = probe->u[d] - measure->exact_u.component[d][p];
     probe->v_error[d] = probe->v[d] - measure->exact_v.component[d][p];
@@ -324,6 +349,7 @@ static void keep_extremes(struct gx_measure *measure, const struct gx_sample *sa
   bool end_of_step = measure->started && measure->level != GX_MEASURE_FINAL;
   for (int q = 0; q < GX_QUANTITIES && end_of_step; q++)
     for (int k = 0; k < GX_NORMS; k++) result->max_error[q][k] = fmax(result->max_error[q][k], sample->error[q][k]);
+  for (int k = 0; k < GX_NORMS && end_of_step; k++) result->max_jump[k] = fmax(result->max_jump[k], sample->jump[k]);
   if (measure->level != GX_MEASURE_ALL) return;
   double balance = sample->kinetic + sample->elastic - sample->work;
   if (!measure->started) {
@@ -337,13 +363,30 @@ static void keep_extremes(struct gx_measure *measure, const struct gx_sample *sa
     result->drift = fmax(result->drift, fabs(balance - measure->start_balance) / measure->start_energy);
 }
 
+static void jumps(const struct gx_measure *measure, struct gx_sample *sample)
+{
+  memset(measure->scratch, 0, measure->n * sizeof(double));
+  for (int d = 0; d < measure->dim; d++)
+    for (size_t p = 0; p < measure->n; p++) measure->scratch[p] += measure->jump->sum[d][p] * measure->jump->sum[d][p];
+  norms_of_squares(measure, sample->jump);
+  sample->jump_step = measure->jump->step;
+}
+
 enum gx_status gx_measure_take(struct gx_measure *measure, struct gx_stepper *stepper, double t, double dt)
 {
   double cell[GX_MAX_DIM]; /* of the probe at the last sample */
-  struct gx_sample sample = {.time = t, .kinetic = NAN, .kinetic_nodes = NAN, .elastic = NAN, .work = NAN, .defect = NAN};
+  struct gx_sample sample = {.time = t,
+                             .kinetic = NAN,
+                             .kinetic_nodes = NAN,
+                             .elastic = NAN,
+                             .work = NAN,
+                             .defect = NAN,
+                             .jump = {NAN, NAN, NAN},
+                             .jump_step = NAN};
   GX_TRY(synchronise(measure, stepper, t, dt));
   errors(measure, t, sample.error);
   if (measure->level == GX_MEASURE_ALL) energies(measure, dt, &sample);
+  if (measure->jump) jumps(measure, &sample);
   if (measure->followed >= 0)
     for (int d = 0; d < measure->dim; d++) cell[d] = measure->cell.component[d][measure->followed];
   sample.crossings = crossings(measure);

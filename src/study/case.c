@@ -17,12 +17,14 @@ struct run {
   struct gx_measure *measure;
   struct gx_result *result;
   enum gx_measure_level level;
+  bool jumps;             /* jump errors are measured */
   double history_every;   /* steps; 0: none */
   const char *accumulate; /* time.accumulate */
   double time, lost;      /* s; lost: what compensated summation carries */
   double kinetic_limit;   /* J */
   double samples, timed;  /* taken; whose cost was read from the clock */
   double timed_seconds;   /* of processor time */
+  double jump_seconds;    /* the same, of measuring jumps */
 };
 
 /* Of this thread's own work: other cases and other programs do not count. */
@@ -65,6 +67,7 @@ static enum gx_status prepare_history(struct run *run)
   struct gx_history *history = &run->result->history;
   double samples = floor(run->simulation.steps / run->history_every) + 2;
   bool probed = run->result->probe >= 0, fits = samples < 1e9;
+  history->jumps = run->jumps;
   history->dim = run->simulation.particles->dim;
   history->sample = fits ? malloc((size_t)samples * sizeof *history->sample) : NULL;
   history->probe = fits && probed ? malloc((size_t)samples * sizeof *history->probe) : NULL;
@@ -96,6 +99,8 @@ static enum gx_status prepare(struct run *run, const struct gx_case *one, double
     run->result->probe = (long)nearest_particle(simulation->particles, one->value[GX_OUTPUT_PROBE].text);
     gx_measure_follow(run->measure, (size_t)run->result->probe);
   }
+  run->jumps = simulation->jumps;
+  if (run->jumps && gx_measure_jumps(run->measure)) return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the jumps");
   if (run->history_every > 0) GX_TRY(prepare_history(run));
   double m = 0, c = simulation->posed->speed;
   for (size_t p = 0; p < simulation->particles->n; p++) m += simulation->particles->m[p];
@@ -149,6 +154,13 @@ static void advance_time(struct run *run, double step)
   }
 }
 
+static void measure_jumps(struct run *run)
+{
+  double before = seconds_now();
+  gx_measure_step(run->measure, run->simulation.dt);
+  run->jump_seconds += seconds_now() - before;
+}
+
 static enum gx_status march(struct run *run)
 {
   const struct gx_simulation *simulation = &run->simulation;
@@ -156,6 +168,7 @@ static enum gx_status march(struct run *run)
   GX_TRY(take_sample(run, 0));
   for (double step = 1; step <= simulation->steps; step++) {
     GX_TRY(gx_stepper_step(run->stepper, run->time, simulation->dt));
+    if (run->jumps) measure_jumps(run);
     advance_time(run, step);
     result->steps = step;
     result->time = run->time;
@@ -223,7 +236,7 @@ static void compare_with_reference(const struct run *run, const struct gx_case *
   struct gx_case final_only = *one;
   final_only.value[GX_OUTPUT_MEASURES].text = "final";
   final_only.value[GX_OUTPUT_HISTORIES].integer = 0;
-  final_only.value[GX_OUTPUT_PROBE].type = GX_NULL;
+  final_only.value[GX_OUTPUT_PROBE].type = final_only.value[GX_OUTPUT_JUMPS].type = GX_NULL;
   struct gx_result result = {.outcome = {.status = GX_OK, .particle = -1}};
   struct run fine = {.result = &result};
   if (prepare(&fine, &final_only, refine) == GX_OK && march(&fine) == GX_OK)
@@ -244,7 +257,7 @@ struct gx_result gx_case_run(const struct gx_case *one)
   if (prepare(&run, one, 1) == GX_OK) {
     double before = seconds_now(), refine = (double)one->value[GX_OUTPUT_REFERENCE].integer;
     bool done = march(&run) == GX_OK;
-    result.seconds = seconds_now() - before - measuring_seconds(&run);
+    result.seconds = seconds_now() - before - measuring_seconds(&run) - run.jump_seconds;
     result.measured = *gx_measure_result(run.measure);
     if (done && refine > 0) compare_with_reference(&run, one, refine);
     result.stable_dt = estimate_stable_dt(one);

@@ -354,6 +354,16 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                          .help = "reference coordinates, one number from 0 to 1 a dimension, such as 0.3 or 0.3 0.7; the nearest "
                                  "particle is followed in histories",
                          .why = "none: norms are over all particles"},
+    [GX_OUTPUT_JUMPS] = {.path = "output.jumps",
+                         .type = GX_TEXT,
+                         .unit = "",
+                         .choice = gx_rules_switch_choice,
+                         .standard = "no",
+                         .applies = gx_rules_jumps_apply,
+                         .help =
+                             "measure what each step across a cell edge goes astray from one that stops there; where particles "
+                             "move through cells",
+                         .why = "it takes a pass over the particles each step"},
     [GX_OUTPUT_REFERENCE] = {.path = "output.reference",
                              .type = GX_INTEGER,
                              .unit = "",

@@ -66,6 +66,7 @@ CHOICE(gx_rules_divergence_choice, "exact", "papers")
 CHOICE(gx_rules_landing_choice, "exact", "past")
 CHOICE(gx_rules_accumulate_choice, "product", "sum", "compensated")
 CHOICE(gx_rules_measures_choice, "final", "max", "all")
+CHOICE(gx_rules_switch_choice, "no", "yes")
 
 /* Where parameters apply */
 
@@ -146,6 +147,13 @@ bool gx_rules_particles_move(const struct gx_value *value)
 {
   const struct gx_space_kind *space = space_of(value);
   return space && !space->collocation && (space->fixed_grid || !is_text(value[GX_METHOD_PROJECTION], "once"));
+}
+
+bool gx_rules_jumps_apply(const struct gx_value *value)
+{
+  const char *own = problem_of(value)->space;
+  const struct gx_space_kind *space = own ? gx_space_find(own) : space_of(value);
+  return space && space->fixed_grid;
 }
 
 bool gx_rules_flip_applies(const struct gx_value *value)

@@ -24,6 +24,7 @@ const char *gx_rules_divergence_choice(int i);
 const char *gx_rules_landing_choice(int i);
 const char *gx_rules_accumulate_choice(int i);
 const char *gx_rules_measures_choice(int i);
+const char *gx_rules_switch_choice(int i);
 
 /* Whether a parameter applies to a case. value: [GX_PARAMETERS]. */
 bool gx_rules_is_continuum(const struct gx_value *value);
@@ -40,6 +41,7 @@ bool gx_rules_mode_applies(const struct gx_value *value);
 bool gx_rules_directions_apply(const struct gx_value *value);
 bool gx_rules_degree_applies(const struct gx_value *value);
 bool gx_rules_particles_move(const struct gx_value *value);
+bool gx_rules_jumps_apply(const struct gx_value *value);
 bool gx_rules_flip_applies(const struct gx_value *value);
 bool gx_rules_cfl_applies(const struct gx_value *value);
 bool gx_rules_periods_applies(const struct gx_value *value);

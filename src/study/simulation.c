@@ -3,6 +3,7 @@
 #include "simulation.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -52,6 +53,7 @@ static void read_method(struct gx_simulation *simulation, const struct gx_case *
   simulation->kind = gx_space_find(own ? own : one->value[GX_METHOD_SPACE].text);
   simulation->clock = gx_clock_find(one->value[GX_METHOD_CLOCK].text);
   simulation->layout = is(one, GX_MESH_LAYOUT, "gauss") ? GX_LAYOUT_GAUSS : GX_LAYOUT_UNIFORM;
+  simulation->jumps = is(one, GX_OUTPUT_JUMPS, "yes");
   simulation->per_cell = (int)integer(one, GX_MESH_PARTICLES_PER_CELL, 1);
   for (int d = 0; d < GX_MAX_DIM; d++) options->cells[d] = (int)integer(one, GX_MESH_CELLS, 1);
   options->periodic = is(one, GX_PROBLEM_BOUNDARY, "periodic");
@@ -77,11 +79,35 @@ static bool mixes_weights(const struct gx_clock *clock)
   return false;
 }
 
+/* Whether a step moves particles once, at its end: by a field that is still there to look at. */
+static bool drifts_once(const struct gx_clock *clock)
+{
+  const struct gx_row *row = clock->rows;
+  while (row && row->primitive > GX_END && row->primitive < GX_DRIFT) row++;
+  return row && row[0].primitive == GX_DRIFT && row[0].coefficient == 1 && row[1].primitive == GX_END;
+}
+
+static enum gx_status refuse_jumps(const struct gx_simulation *simulation, struct gx_outcome *outcome)
+{
+  char clocks[128] = "";
+  if (simulation->space_options.particle_motion)
+    return gx_status_set(outcome, GX_REFUSED, -1,
+                         "output.jumps compares two ways through the grid's velocity, and position: particle takes neither");
+  if (drifts_once(simulation->clock)) return GX_OK;
+  for (const struct gx_clock *const *clock = gx_clock_family; *clock; clock++)
+    if (drifts_once(*clock)) {
+      size_t used = strlen(clocks);
+      snprintf(clocks + used, sizeof clocks - used, "%s%s", used ? ", " : "", (*clock)->name);
+    }
+  return gx_status_set(outcome, GX_REFUSED, -1, "output.jumps needs a clock that moves particles once a step: %s", clocks);
+}
+
 static enum gx_status refuse(const struct gx_simulation *simulation, struct gx_outcome *outcome)
 {
   const struct gx_problem_options *problem = &simulation->problem_options;
   const struct gx_space_options *options = &simulation->space_options;
   double slope = 2 * M_PI * problem->mode * fabs(problem->amplitude);
+  if (simulation->jumps) GX_TRY(refuse_jumps(simulation, outcome));
   if (simulation->problem->space) return GX_OK;
   if (slope >= 1)
     return gx_status_set(outcome, GX_REFUSED, -1,

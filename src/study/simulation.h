@@ -14,6 +14,7 @@ struct gx_simulation {
   const struct gx_clock *clock;
   enum gx_layout layout;
   int per_cell;
+  bool jumps;            /* output.jumps */
   double start, end, dt; /* s */
   double steps;
   bool built; /* the three below exist */

@@ -52,6 +52,13 @@ static void put_errors(struct cursor *at, const char *prefix, const char *moment
   }
 }
 
+static void put_norm(struct cursor *at, const char *prefix, int norm, double length)
+{
+  char name[80];
+  snprintf(name, sizeof name, "%s.%s", prefix, norms[norm]);
+  put_real(at, name, "m", length);
+}
+
 static void put_case(struct cursor *at, const struct gx_case *one, const struct gx_result *result, bool timing)
 {
   enum gx_status status = result->outcome.status;
@@ -74,6 +81,10 @@ static void put_case(struct cursor *at, const struct gx_case *one, const struct 
   put_real(at, "result.energy.defect", "J", ok ? measured->max_defect : NAN);
   put_real(at, "result.energy.drift", "", ok ? measured->drift : NAN);
   for (int q = 0; q < GX_QUANTITIES; q++) put_errors(at, "result.", ".reference", result->reference, q, ok);
+  for (int n = 0; n < GX_NORMS; n++) put_norm(at, "result.jump.final", n, ok ? measured->last.jump[n] : NAN);
+  for (int n = 0; n < GX_NORMS; n++) put_norm(at, "result.jump.max", n, ok ? measured->max_jump[n] : NAN);
+  put_real(at, "result.jump.last", "m", ok ? measured->last_jump : NAN);
+  put_real(at, "result.jump.estimate", "m", ok ? measured->estimated_jump : NAN);
   put_count(at, "result.probe.particle", ran && one->value[GX_OUTPUT_PROBE].type == GX_TEXT ? (double)result->probe : NAN);
   put_real(at, "result.probe.acceleration_change", "m/s^2", ok ? measured->probe_change : NAN);
   put_real(at, "result.stable_dt", "s", ran ? result->stable_dt : NAN);
@@ -92,13 +103,20 @@ static void put_vector(struct cursor *at, const char *name, const char *unit, in
   }
 }
 
-static void put_probe(struct cursor *at, int dim, const struct gx_probe *probe)
+static void put_jumps(struct cursor *at, const struct gx_sample *sample)
+{
+  put_real(at, "jump.step", "m", sample->jump_step);
+  for (int n = 0; n < GX_NORMS; n++) put_norm(at, "jump", n, sample->jump[n]);
+}
+
+static void put_probe(struct cursor *at, int dim, bool jumps, const struct gx_probe *probe)
 {
   put_vector(at, "probe.displacement", "m", dim, probe->u);
   put_vector(at, "probe.velocity", "m/s", dim, probe->v);
   put_vector(at, "probe.acceleration", "m/s^2", dim, probe->a);
   put_vector(at, "probe.displacement_error", "m", dim, probe->u_error);
   put_vector(at, "probe.velocity_error", "m/s", dim, probe->v_error);
+  if (jumps) put_vector(at, "probe.jump", "m", dim, probe->jump);
 }
 
 static void put_sample(struct cursor *at, const struct gx_sample *sample)
@@ -141,7 +159,8 @@ static void put_row(struct cursor *at, const struct gx_history *history, const s
                     const struct gx_probe *probe)
 {
   put_sample(at, sample);
-  if (history->probe) put_probe(at, history->dim, probe);
+  if (history->jumps) put_jumps(at, sample);
+  if (history->probe) put_probe(at, history->dim, history->jumps, probe);
 }
 
 struct gx_table *gx_study_table_history(const struct gx_result *result)
