@@ -358,12 +358,11 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                          .type = GX_TEXT,
                          .unit = "",
                          .choice = gx_rules_switch_choice,
-                         .standard = "no",
                          .applies = gx_rules_jumps_apply,
                          .help =
                              "measure what each step across a cell edge goes astray from one that stops there; where particles "
                              "move through cells",
-                         .why = "it takes a pass over the particles each step"},
+                         .why = "none: it takes a pass over the particles each step"},
     [GX_OUTPUT_REFERENCE] = {.path = "output.reference",
                              .type = GX_INTEGER,
                              .unit = "",

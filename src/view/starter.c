@@ -86,7 +86,7 @@ int gx_starter_write(FILE *out, const struct gx_problem *problem)
   for (int id = 0; id < GX_PARAMETERS; id++) {
     const struct gx_parameter *parameter = &gx_parameters[id];
     size_t length = strcspn(parameter->path, ".");
-    if (value[id].type == GX_NULL && parameter->applies) {
+    if (value[id].type == GX_NULL && parameter->applies && !parameter->applies(value)) {
       value[id] = default_elsewhere(problem, id);
       if (value[id].type == GX_NULL) continue;
     }

@@ -42,12 +42,33 @@ static void euler_passes_knots_at_order_one(void **state)
   NEAR(log2(error_of(euler, "0.4", 1e-4) / error_of(euler, "0.4", 5e-5)), 1, 0.02);
 }
 
+/* steffen2010 Fig 5: slope * v(knot) / 4 dt^2, half way over the knot: 3*2/4, 6*4/4, 12*6/4. */
+static void jumps_are_of_order_two(void **state)
+{
+  (void)state;
+  const double limit[] = {1.5, 6, 18};
+  for (int k = 0; k < 3; k++) {
+    double jump[2];
+    for (int i = 0; i < 2; i++) {
+      struct gx_case one =
+          case_draft("problem.name=jump-model", "method.clock=euler-stress-last", "time.steps=1", "output.jumps=yes");
+      case_set_integer(&one, GX_PROBLEM_KNOT, k + 1);
+      case_set_real(&one, GX_TIME_DT, i ? 1e-4 : 2e-4);
+      gx_parameter_resolve(one.value);
+      jump[i] = -case_result(&one).measured.last_jump;
+    }
+    NEAR(log2(jump[0] / jump[1]), 2, 0.002);
+    CLOSE(jump[1] / 1e-8, limit[k], 0.001);
+  }
+}
+
 int main(void)
 {
   gsl_set_error_handler_off();
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(drifts_through_a_field_are_of_order_one),
       cmocka_unit_test(euler_passes_knots_at_order_one),
+      cmocka_unit_test(jumps_are_of_order_two),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
