@@ -3,6 +3,7 @@
 #include <gsl/gsl_errno.h>
 
 #include "case_of.h"
+#include "rig.h"
 
 static double error_of(const struct gx_clock *clock, const char *end, double dt)
 {
@@ -12,6 +13,21 @@ static double error_of(const struct gx_clock *clock, const char *end, double dt)
   case_set_real(&one, GX_TIME_DT, dt);
   gx_parameter_resolve(one.value);
   return case_result(&one).measured.last.error[GX_DISPLACEMENT][GX_INF];
+}
+
+/* Displacement at 0.1 s, while the particle reaches over the end at 0 and its acceleration is smooth. */
+static double smooth_end(const struct gx_clock *clock, double dt)
+{
+  struct gx_case one = case_draft("problem.name=quadrature-model", "problem.jump=20", "time.end=0.1");
+  struct rig rig;
+  case_set(&one, GX_METHOD_CLOCK, clock->name);
+  case_set_real(&one, GX_TIME_DT, dt);
+  gx_parameter_resolve(one.value);
+  assert_true(rig_build(&rig, &one, NULL, NULL, NULL));
+  rig_run(&rig, -1);
+  double u = rig.simulation.particles->u[0][0];
+  rig_free(&rig);
+  return u;
 }
 
 static bool uses_both_ends(const struct gx_clock *clock)
@@ -31,6 +47,54 @@ static void drifts_through_a_field_are_of_order_one(void **state)
     int order = clock->tableau ? clock->order : uses_both_ends(clock) ? 2 : 1;
     double before = error_of(clock, "0.2", 0.0025), after = error_of(clock, "0.2", 0.00125);
     CHECK(fabs(log2(before / after) - order) < 0.05, "%s: order %.3f, not %d", clock->name, log2(before / after), order);
+  }
+}
+
+static void accelerations_do_not_change_that(void **state)
+{
+  (void)state;
+  double reference = smooth_end(gx_clock_find("rk4"), 1e-4);
+  for (size_t i = 0; gx_clock_family[i]; i++) {
+    const struct gx_clock *clock = gx_clock_family[i];
+    int order = clock->tableau ? clock->order : uses_both_ends(clock) && !clock->staggered ? 2 : 1;
+    double before = fabs(smooth_end(clock, 0.005) - reference), after = fabs(smooth_end(clock, 0.0025) - reference);
+    CHECK(fabs(log2(before / after) - order) < 0.1, "%s: order %.3f, not %d", clock->name, log2(before / after), order);
+  }
+}
+
+/* Length that [a, b] and [c, d] share. */
+static double shared(double a, double b, double c, double d)
+{
+  return fmax(0, fmin(b, d) - fmax(a, c));
+}
+
+/* Eqs 89-92 in plain arithmetic, the integral piece by piece. */
+static void quadrature_model_by_hand(void **state)
+{
+  (void)state;
+  const double end[] = {0, 1.0 / 3, 2.0 / 3, 5.0 / 6, 1}, slope[] = {3, 6, 12, 18}, offset[] = {1, 0, -4, -9};
+  const double dt = 1e-3, width = 0.25;
+  for (int corrected = 0; corrected < 2; corrected++) {
+    const double g[] = {-2, 0, corrected ? 1 : 2, 3};
+    struct gx_case one = case_draft("problem.name=quadrature-model", "problem.jump=2", "time.dt=0.001", "time.end=0.4",
+                                    "method.clock=euler-stress-last");
+    case_set(&one, GX_PROBLEM_VARIANT, corrected ? "corrected" : "printed");
+    gx_parameter_resolve(one.value);
+    double x = 0, external = 0;
+    for (int k = 0; k < 400; k++) {
+      int piece = 0;
+      while (x >= end[piece + 1]) piece++;
+      double a = g[piece] * width;
+      for (int i = 0; i < 4; i++) a += g[i] * (end[i + 1] - end[i] - shared(end[i], end[i + 1], x - width / 2, x + width / 2));
+      external += a * dt;
+      x += (slope[piece] * x + offset[piece] + external) * dt;
+    }
+    struct rig rig;
+    assert_true(rig_build(&rig, &one, NULL, NULL, NULL));
+    rig_run(&rig, -1);
+    NEAR(rig.simulation.particles->u[0][0], x, 1e-12);
+    NEAR(rig.simulation.particles->v[0][0], 18 * x - 9 + external, 1e-11);
+    rig_free(&rig);
   }
 }
 
@@ -67,6 +131,8 @@ int main(void)
   gsl_set_error_handler_off();
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(drifts_through_a_field_are_of_order_one),
+      cmocka_unit_test(accelerations_do_not_change_that),
+      cmocka_unit_test(quadrature_model_by_hand),
       cmocka_unit_test(euler_passes_knots_at_order_one),
       cmocka_unit_test(jumps_are_of_order_two),
   };

@@ -206,12 +206,12 @@ static double carrying_velocity(double x)
 }
 
 /* x(t) of the model problems by hand, posed with the given knot and step. */
-static double carried_to(const char *name, int knot, double t, double *v)
+static double carried_to(const char *name, int knot, double t, double *v, double *a)
 {
   struct gx_problem_options options = {.dim = 1, .mode = 1, .knot = knot, .dt = 0.01, .jump = 1, .particle_width = 0.1};
   double X = 0.5, u;
   struct gx_posed *posed = gx_problem_pose(gx_problem_find(name), &options, 1, (double *[]){&X});
-  posed->problem->exact(posed, t, (double *[]){&u}, (double *[]){v}, NULL, NULL);
+  posed->problem->exact(posed, t, (double *[]){&u}, (double *[]){v}, NULL, (double *[]){a});
   double x = gx_jump_model_start(posed) + u;
   gx_problem_free(posed);
   return x;
@@ -222,20 +222,21 @@ static void a_carried_particle_has_the_velocity_of_its_place(void **state)
   (void)state;
   const char *const names[] = {"jump-model", "quadrature-model"};
   const double first = log(2) / 3, second = first + log(2) / 6, third = second + log(1.5) / 12; /* 1/v from knot to knot */
-  double v;
+  double v, a;
   for (int i = 0; i < 2; i++) {
-    NEAR(carried_to(names[i], 0, 0, &v), 0, 0);
-    NEAR(carried_to(names[i], 0, first, &v), 1.0 / 3, 1e-15);
-    NEAR(carried_to(names[i], 0, second, &v), 2.0 / 3, 1e-15);
-    NEAR(carried_to(names[i], 0, third, &v), 5.0 / 6, 1e-15);
-    NEAR(carried_to(names[i], 0, third + log(1.5) / 18, &v), 1, 1e-14); /* 6 to 9 at slope 18 */
+    NEAR(carried_to(names[i], 0, 0, &v, &a), 0, 0);
+    NEAR(carried_to(names[i], 0, first, &v, &a), 1.0 / 3, 1e-15);
+    NEAR(carried_to(names[i], 0, second, &v, &a), 2.0 / 3, 1e-15);
+    NEAR(carried_to(names[i], 0, third, &v, &a), 5.0 / 6, 1e-15);
+    NEAR(carried_to(names[i], 0, third + log(1.5) / 18, &v, &a), 1, 1e-14); /* 6 to 9 at slope 18 */
     NEAR(v, 9, 1e-13);
     for (double t = 0.01; t < 0.42; t += 0.0137) {
       const double step = 1e-5;
-      double before = carried_to(names[i], 0, t - step, &v), after = carried_to(names[i], 0, t + step, &v);
-      double x = carried_to(names[i], 0, t, &v);
+      double before = carried_to(names[i], 0, t - step, &v, &a), after = carried_to(names[i], 0, t + step, &v, &a);
+      double x = carried_to(names[i], 0, t, &v, &a);
       NEAR((after - before) / (2 * step), v, 1e-4); /* a knot between the two costs 6 * 6 * step / 4 */
       NEAR(v, carrying_velocity(x), 1e-14);
+      NEAR(a, (carrying_velocity(x) - carrying_velocity(x - 1e-6)) / 1e-6 * v, 1e-6);
     }
   }
 }
@@ -246,7 +247,7 @@ static void a_knot_is_met_half_way(void **state)
   (void)state;
   const double knots[] = {1.0 / 3, 2.0 / 3, 5.0 / 6};
   for (int k = 0; k < 3; k++) {
-    double v, x = carried_to("jump-model", k + 1, 0, &v);
+    double v, a, x = carried_to("jump-model", k + 1, 0, &v, &a);
     NEAR(x + 0.005 * carrying_velocity(x), knots[k], 1e-15);
     NEAR(gx_jump_model_velocity(knots[k]), gx_jump_model_velocity(knots[k] - 1e-14), 1e-12);
     NEAR(v, carrying_velocity(x), 1e-14);
