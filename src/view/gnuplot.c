@@ -107,7 +107,11 @@ static void put_axis(const char *name, const struct gx_figure_axis *axis, size_t
   char text[GX_NUMBER_LENGTH];
   const char *gap = "";
   put_range(name, axis, out);
-  if (!axis->log) return;
+  if (!axis->log) {
+    bool small = fmax(fabs(axis->least), fabs(axis->most)) < 1e-3; /* whose zeros would push the label off the figure */
+    if (small) fprintf(out, "set format %s '%%.1te%%T'\n", name);
+    return;
+  }
   fprintf(out, "set logscale %s\n", name);
   if (!values && axis->most / axis->least > 100) {
     fprintf(out, "set format %s '10^{%%L}'\n", name);

@@ -1,0 +1,1 @@
+history --y probe.displacement_error

@@ -1,0 +1,1 @@
+history --y probe.acceleration --by method.basis

@@ -1,0 +1,1 @@
+lines --x time.dt --y result.jump.final.inf --by problem.knot

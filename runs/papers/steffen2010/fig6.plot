@@ -1,0 +1,1 @@
+history --y jump.step
