@@ -17,7 +17,6 @@ struct run {
   struct gx_measure *measure;
   struct gx_result *result;
   enum gx_measure_level level;
-  bool jumps;             /* jump errors are measured */
   double history_every;   /* steps; 0: none */
   const char *accumulate; /* time.accumulate */
   double time, lost;      /* s; lost: what compensated summation carries */
@@ -67,7 +66,7 @@ static enum gx_status prepare_history(struct run *run)
   struct gx_history *history = &run->result->history;
   double samples = floor(run->simulation.steps / run->history_every) + 2;
   bool probed = run->result->probe >= 0, fits = samples < 1e9;
-  history->jumps = run->jumps;
+  history->jumps = run->simulation.jumps;
   history->dim = run->simulation.particles->dim;
   history->sample = fits ? malloc((size_t)samples * sizeof *history->sample) : NULL;
   history->probe = fits && probed ? malloc((size_t)samples * sizeof *history->probe) : NULL;
@@ -99,8 +98,8 @@ static enum gx_status prepare(struct run *run, const struct gx_case *one, double
     run->result->probe = (long)nearest_particle(simulation->particles, one->value[GX_OUTPUT_PROBE].text);
     gx_measure_follow(run->measure, (size_t)run->result->probe);
   }
-  run->jumps = simulation->jumps;
-  if (run->jumps && gx_measure_jumps(run->measure)) return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the jumps");
+  if (simulation->jumps && gx_measure_jumps(run->measure))
+    return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the jumps");
   if (run->history_every > 0) GX_TRY(prepare_history(run));
   double m = 0, c = simulation->posed->speed;
   for (size_t p = 0; p < simulation->particles->n; p++) m += simulation->particles->m[p];
@@ -168,7 +167,7 @@ static enum gx_status march(struct run *run)
   GX_TRY(take_sample(run, 0));
   for (double step = 1; step <= simulation->steps; step++) {
     GX_TRY(gx_stepper_step(run->stepper, run->time, simulation->dt));
-    if (run->jumps) measure_jumps(run);
+    if (simulation->jumps) measure_jumps(run);
     advance_time(run, step);
     result->steps = step;
     result->time = run->time;
