@@ -62,7 +62,7 @@ def main(source, wanted):
             print(f"{'noticed' if noticed else 'SURVIVED'}: {name} ({path}): {', '.join(noticed) or 'no gate is missed'}", flush=True)
             survivors += [] if noticed else [name]
             file.write_text(original)
-        sys.exit("\n".join(survivors))
+        sys.exit("\n".join(survivors) or 0)
 
 
 main(pathlib.Path(sys.argv[1]).resolve(), sys.argv[2:])
