@@ -4,7 +4,6 @@
 
 #include <fftw3.h>
 #include <math.h>
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,16 +17,12 @@ struct gx_spline_circulant {
   double *symbol;          /* [degree][sites / 2 + 1], over the symbol of the values; imaginary for odd orders */
 };
 
-/* FFTW plans one at a time in a process. */
-static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
-
 static bool plan(struct gx_spline_circulant *c)
 {
   const int n = (int)c->sites;
-  pthread_mutex_lock(&planner);
+  fftw_make_planner_thread_safe();
   c->forward = fftw_plan_dft_r2c_1d(n, c->line, c->transform, FFTW_ESTIMATE);
   c->backward = fftw_plan_dft_c2r_1d(n, c->transform, c->line, FFTW_ESTIMATE);
-  pthread_mutex_unlock(&planner);
   return c->forward && c->backward;
 }
 
@@ -115,10 +110,8 @@ enum gx_spline_status gx_spline_circulant_create(struct gx_spline_circulant **ci
 void gx_spline_circulant_free(struct gx_spline_circulant *circulant)
 {
   if (!circulant) return;
-  pthread_mutex_lock(&planner);
   if (circulant->forward) fftw_destroy_plan(circulant->forward);
   if (circulant->backward) fftw_destroy_plan(circulant->backward);
-  pthread_mutex_unlock(&planner);
   fftw_free(circulant->line);
   fftw_free(circulant->transform);
   free(circulant->solve);

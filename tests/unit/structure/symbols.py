@@ -2,7 +2,7 @@
 """What the object files of src/ and splines/ export, keep and call. usage: symbols.py SOURCE_ROOT BUILD_ROOT
 
 An exported symbol of src/<folder>/<stem>.c or splines/<stem>.c is gx_<stem>... ; no object holds writable data, thread-local
-included, but one lock; only the command line exits, aborts, or knows the standard streams."""
+included; only the command line exits, aborts, or knows the standard streams."""
 import pathlib
 import re
 import subprocess
@@ -10,7 +10,6 @@ import sys
 
 PROCESS = {"exit", "_exit", "_Exit", "abort", "quick_exit", "stdout", "stderr", "printf", "__printf_chk", "vprintf",
            "__vprintf_chk", "puts", "putchar", "perror"}
-LOCKS = {("splines", "planner")}  # FFTW plans one at a time in a process
 CONSTANT = (".text", ".rodata", ".data.rel.ro", ".init_array", ".fini_array", ".eh_frame")
 
 root, build = (pathlib.Path(a).resolve() for a in sys.argv[1:3])
@@ -46,7 +45,7 @@ for source in sources:
             local_clone = "." in name and not plain.startswith("gx_")
             if not local_clone:
                 bad.append(f"{where}: exports {name}, which does not begin with gx_{source.stem}; rename it or make it static")
-        if section and not section.startswith(CONSTANT) and section != "*ABS*" and (folder, name) not in LOCKS:
+        if section and not section.startswith(CONSTANT) and section != "*ABS*":
             bad.append(f"{where}: {name} is writable data ({section}); pass a context instead, or make it const")
 print("\n".join(sorted(bad)))
 print(f"{len(sources)} sources, {len(bad)} violations")
