@@ -59,6 +59,8 @@ const struct gx_probe *gx_measure_probe(const struct gx_measure *measure);
 struct gx_work_observer gx_measure_work(struct gx_measure *measure);
 /* Takes the sample at time t: the start, then ends of steps, every one of them unless only the last matters. */
 enum gx_status gx_measure_take(struct gx_measure *measure, struct gx_stepper *stepper, double t, double dt);
+/* Error of one component at the last sample: of a vector dim, of Cauchy stress dim * dim, row-major. error: [n] */
+void gx_measure_error(const struct gx_measure *measure, enum gx_quantity quantity, int component, double *error);
 /* Norms of the difference between the last samples of two measures of the same particles. */
 void gx_measure_difference(const struct gx_measure *measure, const struct gx_measure *other,
                            double error[GX_QUANTITIES][GX_NORMS]);

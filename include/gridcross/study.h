@@ -5,8 +5,10 @@
 
 #include <stdio.h>
 
+#include <gridcross/frequency.h>
 #include <gridcross/measure.h>
 #include <gridcross/parameter.h>
+#include <gridcross/spectrum.h>
 #include <gridcross/status.h>
 #include <gridcross/table.h>
 
@@ -56,6 +58,10 @@ struct gx_result {
   double seconds;                            /* processor time of the steps, measures excluded */
   double ns_per_particle_step;               /* NaN: no step was taken */
   struct gx_history history;
+  struct gx_spectra spectra;
+  struct gx_vibration vibration; /* of the driven mode; NaN: not asked for, or none */
+  double frequency;              /* of the exact solution, 1/s */
+  double kh;                     /* its wavenumber times the width of a cell, rad */
 };
 
 /* What a case will do, without running it. */
@@ -87,5 +93,7 @@ struct gx_table *gx_study_table(const struct gx_study *study, const struct gx_re
 /* One row a sample: time, displacement.inf, ..., energy.kinetic, ..., crossings; with output.jumps also jump.step, jump.inf, ...;
  * with output.probe also probe.displacement, ..., in 2-D and 3-D by component, probe.displacement.x. NULL when memory runs out. */
 struct gx_table *gx_study_table_history(const struct gx_result *result);
+/* One row a sample and bin: time, wavenumber, displacement, velocity, stress. NULL when memory runs out. */
+struct gx_table *gx_study_table_spectra(const struct gx_result *result);
 
 #endif

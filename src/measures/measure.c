@@ -191,6 +191,18 @@ static void errors(struct gx_measure *measure, double t, double error[GX_QUANTIT
   norms(measure, dim * dim, measure->stress.component, measure->exact_stress.component, error[GX_STRESS]);
 }
 
+void gx_measure_error(const struct gx_measure *measure, enum gx_quantity quantity, int component, double *error)
+{
+  double *const *u = measure->space->particles->u;
+  const double *value = quantity == GX_DISPLACEMENT ? u[component]
+                        : quantity == GX_VELOCITY   ? measure->v.component[component]
+                                                    : measure->stress.component[component];
+  const double *exact = quantity == GX_DISPLACEMENT ? measure->exact_u.component[component]
+                        : quantity == GX_VELOCITY   ? measure->exact_v.component[component]
+                                                    : measure->exact_stress.component[component];
+  for (size_t p = 0; p < measure->n; p++) error[p] = value[p] - exact[p];
+}
+
 void gx_measure_difference(const struct gx_measure *measure, const struct gx_measure *other,
                            double error[GX_QUANTITIES][GX_NORMS])
 {

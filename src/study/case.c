@@ -17,13 +17,18 @@ struct run {
   struct gx_measure *measure;
   struct gx_result *result;
   enum gx_measure_level level;
-  double history_every;   /* steps; 0: none */
+  double history_every; /* steps; 0: none; the same below */
+  double spectra_every;
+  double frequency_every;
+  struct gx_spectrum *spectrum;
+  struct gx_frequency frequency;
   const char *accumulate; /* time.accumulate */
   double time, lost;      /* s; lost: what compensated summation carries */
   double kinetic_limit;   /* J */
   double samples, timed;  /* taken; whose cost was read from the clock */
   double timed_seconds;   /* of processor time */
   double jump_seconds;    /* the same, of measuring jumps */
+  double observing;       /* s of it for spectra and frequency */
 };
 
 /* Of this thread's own work: other cases and other programs do not count. */
@@ -74,6 +79,28 @@ static enum gx_status prepare_history(struct run *run)
   return gx_status_set(&run->result->outcome, GX_FAILED, -1, "out of memory for %.3g history samples", samples);
 }
 
+static enum gx_status prepare_spectra(struct run *run)
+{
+  const struct gx_simulation *simulation = &run->simulation;
+  const struct gx_space_options *options = &simulation->space_options;
+  int cells = options->cells[0];
+  run->spectrum = gx_spectrum_create(simulation->particles, cells * simulation->per_cell, options->periodic);
+  if (!run->spectrum) return gx_status_set(&run->result->outcome, GX_FAILED, -1, "out of memory for spectra");
+  struct gx_spectra *spectra = &run->result->spectra;
+  *spectra = (struct gx_spectra){
+      .bins = gx_spectrum_bins(run->spectrum),
+      .spacing = gx_spectrum_spacing(run->spectrum),
+      .nyquist = 0.5 * cells,
+      .driven = simulation->problem_options.mode,
+  };
+  double samples = floor(simulation->steps / run->spectra_every) + 2, each = (double)(GX_QUANTITIES * spectra->bins);
+  bool fits = samples * each < 1e9;
+  spectra->time = fits ? malloc((size_t)samples * sizeof(double)) : NULL;
+  spectra->rms = fits ? malloc((size_t)samples * GX_QUANTITIES * spectra->bins * sizeof(double)) : NULL;
+  if (spectra->time && spectra->rms) return GX_OK;
+  return gx_status_set(&run->result->outcome, GX_FAILED, -1, "out of memory for %.3g spectra", samples);
+}
+
 /* refine: divides the time step. */
 static enum gx_status prepare(struct run *run, const struct gx_case *one, double refine)
 {
@@ -87,6 +114,8 @@ static enum gx_status prepare(struct run *run, const struct gx_case *one, double
   GX_TRY(gx_simulation_build(simulation, outcome));
   run->level = level_of(one);
   run->history_every = (double)one->value[GX_OUTPUT_HISTORIES].integer;
+  run->spectra_every = (double)one->value[GX_OUTPUT_SPECTRA].integer;
+  run->frequency_every = (double)one->value[GX_OUTPUT_FREQUENCY].integer;
   run->accumulate = one->value[GX_TIME_ACCUMULATE].text;
   const int *cells = simulation->space->through_cells ? simulation->space_options.cells : NULL;
   run->measure = gx_measure_create(simulation->space, simulation->clock, cells, run->level);
@@ -101,6 +130,8 @@ static enum gx_status prepare(struct run *run, const struct gx_case *one, double
   if (simulation->jumps && gx_measure_jumps(run->measure))
     return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the jumps");
   if (run->history_every > 0) GX_TRY(prepare_history(run));
+  if (run->spectra_every > 0) GX_TRY(prepare_spectra(run));
+  run->frequency.interval = run->frequency_every * simulation->dt;
   double m = 0, c = simulation->posed->speed;
   for (size_t p = 0; p < simulation->particles->n; p++) m += simulation->particles->m[p];
   /* 5 times the exact solution's speed, and room for round-off when it does not move */
@@ -117,15 +148,31 @@ static bool is_timed(double samples)
 
 static double measuring_seconds(const struct run *run)
 {
-  return run->timed > 0 ? run->timed_seconds * run->samples / run->timed : 0;
+  return run->observing + (run->timed > 0 ? run->timed_seconds * run->samples / run->timed : 0);
+}
+
+static bool is_due(double every, double step)
+{
+  return every > 0 && fmod(step, every) == 0;
+}
+
+static void take_spectrum(struct run *run)
+{
+  struct gx_spectra *spectra = &run->result->spectra;
+  double before = seconds_now();
+  spectra->time[spectra->samples] = run->time;
+  gx_spectrum_take(run->spectrum, run->measure, spectra->rms + spectra->samples * GX_QUANTITIES * spectra->bins);
+  spectra->samples++;
+  run->observing += seconds_now() - before;
 }
 
 static enum gx_status take_sample(struct run *run, double step)
 {
   const struct gx_simulation *simulation = &run->simulation;
   bool last = step == simulation->steps;
-  bool kept = run->history_every > 0 && (last || fmod(step, run->history_every) == 0);
-  if (run->level == GX_MEASURE_FINAL && !last && !kept) return GX_OK;
+  bool kept = is_due(run->history_every, step) || (last && run->history_every > 0);
+  bool transformed = is_due(run->spectra_every, step) || (last && run->spectra_every > 0);
+  if (run->level == GX_MEASURE_FINAL && !last && !kept && !transformed) return GX_OK;
   bool reused = gx_stepper_starts_accelerated(run->stepper); /* by the next step: not a cost of measuring */
   bool timed = is_timed(run->samples++);
   if (reused) GX_TRY(gx_stepper_accelerate(run->stepper, run->time));
@@ -136,7 +183,16 @@ static enum gx_status take_sample(struct run *run, double step)
   struct gx_history *history = &run->result->history;
   if (kept && history->probe) history->probe[history->samples] = *gx_measure_probe(run->measure);
   if (kept) history->sample[history->samples++] = gx_measure_result(run->measure)->last;
+  if (transformed) take_spectrum(run);
   return GX_OK;
+}
+
+static void sample_frequency(struct run *run, double step)
+{
+  if (!is_due(run->frequency_every, step)) return;
+  double before = seconds_now();
+  gx_frequency_add(&run->frequency, gx_frequency_project(run->simulation.space));
+  run->observing += seconds_now() - before;
 }
 
 static void advance_time(struct run *run, double step)
@@ -165,6 +221,7 @@ static enum gx_status march(struct run *run)
   const struct gx_simulation *simulation = &run->simulation;
   struct gx_result *result = run->result;
   GX_TRY(take_sample(run, 0));
+  sample_frequency(run, 0);
   for (double step = 1; step <= simulation->steps; step++) {
     GX_TRY(gx_stepper_step(run->stepper, run->time, simulation->dt));
     if (simulation->jumps) measure_jumps(run);
@@ -177,6 +234,7 @@ static enum gx_status march(struct run *run)
       return gx_status_set(&result->outcome, GX_UNSTABLE, -1, "kinetic energy %.4g J, over 25 times the exact solution's",
                            kinetic);
     GX_TRY(take_sample(run, step));
+    sample_frequency(run, step);
   }
   return GX_OK;
 }
@@ -185,6 +243,7 @@ static void finish(struct run *run)
 {
   gx_stepper_free(run->stepper);
   gx_measure_free(run->measure);
+  gx_spectrum_free(run->spectrum);
   gx_simulation_free(&run->simulation);
 }
 
@@ -236,6 +295,8 @@ static void compare_with_reference(const struct run *run, const struct gx_case *
   final_only.value[GX_OUTPUT_MEASURES].text = "final";
   final_only.value[GX_OUTPUT_HISTORIES].integer = 0;
   final_only.value[GX_OUTPUT_PROBE].type = final_only.value[GX_OUTPUT_JUMPS].type = GX_NULL;
+  final_only.value[GX_OUTPUT_SPECTRA].integer = 0;
+  final_only.value[GX_OUTPUT_FREQUENCY].integer = 0;
   struct gx_result result = {.outcome = {.status = GX_OK, .particle = -1}};
   struct run fine = {.result = &result};
   if (prepare(&fine, &final_only, refine) == GX_OK && march(&fine) == GX_OK)
@@ -248,8 +309,12 @@ static void compare_with_reference(const struct run *run, const struct gx_case *
 
 struct gx_result gx_case_run(const struct gx_case *one)
 {
-  struct gx_result result = {
-      .outcome = {.status = GX_OK, .particle = -1}, .dt = NAN, .stable_dt = NAN, .probe = -1, .ns_per_particle_step = NAN};
+  struct gx_result result = {.outcome = {.status = GX_OK, .particle = -1},
+                             .dt = NAN,
+                             .stable_dt = NAN,
+                             .probe = -1,
+                             .ns_per_particle_step = NAN,
+                             .vibration = {NAN, NAN}};
   for (int q = 0; q < GX_QUANTITIES; q++)
     for (int k = 0; k < GX_NORMS; k++) result.reference[q][k] = NAN;
   struct run run = {.result = &result};
@@ -258,6 +323,9 @@ struct gx_result gx_case_run(const struct gx_case *one)
     bool done = march(&run) == GX_OK;
     result.seconds = seconds_now() - before - measuring_seconds(&run) - run.jump_seconds;
     result.measured = *gx_measure_result(run.measure);
+    result.frequency = run.simulation.frequency;
+    result.kh = 2 * M_PI * run.simulation.problem_options.mode / run.simulation.space_options.cells[0];
+    result.vibration = gx_frequency_fit(&run.frequency, 1e-9 * fabs(run.simulation.problem_options.amplitude));
     if (done && refine > 0) compare_with_reference(&run, one, refine);
     result.stable_dt = estimate_stable_dt(one);
   }
@@ -270,7 +338,10 @@ void gx_case_free(struct gx_result *result)
 {
   free(result->history.sample);
   free(result->history.probe);
+  free(result->spectra.time);
+  free(result->spectra.rms);
   result->history = (struct gx_history){0};
+  result->spectra = (struct gx_spectra){0};
 }
 
 struct gx_plan gx_case_plan(const struct gx_case *one)

@@ -134,6 +134,7 @@ static enum gx_status settle_steps(struct gx_simulation *simulation, const struc
   double c = simulation->problem->material->wave_speed(&simulation->problem_options.moduli);
   double h = 1.0 / simulation->space_options.cells[0];
   double period = simulation->problem->cycles / (c * simulation->problem_options.mode);
+  simulation->frequency = 1 / period;
   double dt = real(one, GX_TIME_DT, real(one, GX_TIME_CFL, 0) * h / c);
   double start = real(one, GX_TIME_START, 0), counted = (double)integer(one, GX_TIME_STEPS, 0);
   double span = counted > 0 ? counted * dt : real(one, GX_TIME_END, start + real(one, GX_TIME_PERIODS, 0) * period) - start;
@@ -149,12 +150,27 @@ static enum gx_status settle_steps(struct gx_simulation *simulation, const struc
   return GX_OK;
 }
 
+/* What is asked for cannot be had of this case. */
+static enum gx_status refuse_outputs(const struct gx_simulation *simulation, const struct gx_case *one,
+                                     struct gx_outcome *outcome)
+{
+  double sampled = (double)integer(one, GX_OUTPUT_FREQUENCY, 0) * simulation->dt * simulation->frequency;
+  if (sampled > 0.25)
+    return gx_status_set(outcome, GX_REFUSED, -1,
+                         "output.frequency samples once in %.3g periods; sample at least four times a period", sampled);
+  if (integer(one, GX_OUTPUT_SPECTRA, 0) && simulation->layout != GX_LAYOUT_UNIFORM)
+    return gx_status_set(outcome, GX_REFUSED, -1,
+                         "output.spectra needs particles at equal distances, and Gauss points are not: use layout uniform");
+  return GX_OK;
+}
+
 enum gx_status gx_simulation_plan(struct gx_simulation *simulation, const struct gx_case *one, struct gx_outcome *outcome)
 {
   *simulation = (struct gx_simulation){0};
   read_problem(simulation, one);
   read_method(simulation, one);
   GX_TRY(settle_steps(simulation, one, outcome));
+  GX_TRY(refuse_outputs(simulation, one, outcome));
   return refuse(simulation, outcome);
 }
 
@@ -186,7 +202,7 @@ double gx_simulation_kinetic_bound(const struct gx_simulation *simulation)
   enum { SAMPLES = 8 }; /* a standing wave peaks at quarters of its period, what has no period at the end */
   const struct gx_particles *particles = simulation->particles;
   double cycles = simulation->problem->cycles, first = 0;
-  double span = cycles / (simulation->posed->speed * simulation->problem_options.mode);
+  double span = 1 / simulation->frequency;
   if (cycles == 0) {
     first = simulation->start;
     span = simulation->end - first;

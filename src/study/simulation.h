@@ -17,6 +17,7 @@ struct gx_simulation {
   bool jumps;            /* output.jumps */
   double start, end, dt; /* s */
   double steps;
+  double frequency; /* of the exact solution, 1/s */
   bool built; /* the three below exist */
   struct gx_particles *particles;
   struct gx_posed *posed;

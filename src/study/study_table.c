@@ -59,6 +59,37 @@ static void put_norm(struct cursor *at, const char *prefix, int norm, double len
   put_real(at, name, "m", length);
 }
 
+/* Of the last spectrum, and how the part above Nyquist's wavenumber has grown. */
+static void put_spectrum(struct cursor *at, const struct gx_result *result, enum gx_quantity quantity)
+{
+  const struct gx_spectra *spectra = &result->spectra;
+  double nyquist = spectra->nyquist, half = 0.5 * spectra->spacing;
+  const struct {
+    const char *name;
+    double low, high;
+  } band[] = {{"below", -1, nyquist}, {"above", nyquist, INFINITY}, {"driven", spectra->driven - half, spectra->driven + half}};
+  bool any = result->outcome.status == GX_OK && spectra->samples;
+  char name[80];
+  for (size_t i = 0; i < sizeof band / sizeof *band; i++) {
+    snprintf(name, sizeof name, "result.spectrum.%s.%s", quantities[quantity].name, band[i].name);
+    put_real(at, name, quantities[quantity].unit,
+             any ? gx_spectrum_band(spectra, spectra->samples - 1, quantity, band[i].low, band[i].high) : NAN);
+  }
+  snprintf(name, sizeof name, "result.spectrum.%s.growth", quantities[quantity].name);
+  put_real(at, name, "1/s", any ? gx_spectrum_growth(spectra, quantity, nyquist, INFINITY) : NAN);
+}
+
+static void put_frequency(struct cursor *at, const struct gx_result *result)
+{
+  bool ok = result->outcome.status == GX_OK;
+  double ratio = ok ? result->vibration.frequency / result->frequency : NAN;
+  put_real(at, "result.frequency", "1/s", ok ? result->vibration.frequency : NAN);
+  put_real(at, "result.frequency.ratio", "", ratio);
+  put_real(at, "result.frequency.error", "", fabs(ratio - 1));
+  put_real(at, "result.frequency.growth", "1/s", ok ? result->vibration.growth : NAN);
+  put_real(at, "result.frequency.kh", "", isfinite(ratio) ? result->kh : NAN);
+}
+
 static void put_case(struct cursor *at, const struct gx_case *one, const struct gx_result *result, bool timing)
 {
   enum gx_status status = result->outcome.status;
@@ -87,6 +118,8 @@ static void put_case(struct cursor *at, const struct gx_case *one, const struct 
   put_real(at, "result.jump.estimate", "m", ok ? measured->estimated_jump : NAN);
   put_count(at, "result.probe.particle", ran && one->value[GX_OUTPUT_PROBE].type == GX_TEXT ? (double)result->probe : NAN);
   put_real(at, "result.probe.acceleration_change", "m/s^2", ok ? measured->probe_change : NAN);
+  for (int q = 0; q < GX_QUANTITIES; q++) put_spectrum(at, result, (enum gx_quantity)q);
+  put_frequency(at, result);
   put_real(at, "result.stable_dt", "s", ran ? result->stable_dt : NAN);
   if (!timing) return;
   put_real(at, "result.seconds", "s", ran ? result->seconds : NAN);
@@ -129,6 +162,15 @@ static void put_sample(struct cursor *at, const struct gx_sample *sample)
   put_real(at, "energy.work", "J", sample->work);
   put_real(at, "energy.defect", "J", sample->defect);
   put_real(at, "crossings", "", sample->crossings);
+}
+
+static void put_bin(struct cursor *at, const struct gx_spectra *spectra, size_t sample, size_t bin)
+{
+  put_real(at, "time", "s", spectra->time ? spectra->time[sample] : NAN);
+  put_real(at, "wavenumber", "1/m", (double)bin * spectra->spacing);
+  for (size_t q = 0; q < GX_QUANTITIES; q++)
+    put_real(at, quantities[q].name, quantities[q].unit,
+             spectra->rms ? spectra->rms[(sample * GX_QUANTITIES + q) * spectra->bins + bin] : NAN);
 }
 
 static struct gx_table *finish(struct cursor *at)
@@ -177,6 +219,23 @@ struct gx_table *gx_study_table_history(const struct gx_result *result)
   for (at.row = 0; at.row < history->samples; at.row++) {
     at.column = 0;
     put_row(&at, history, &history->sample[at.row], history->probe ? &history->probe[at.row] : NULL);
+  }
+  return finish(&at);
+}
+
+struct gx_table *gx_study_table_spectra(const struct gx_result *result)
+{
+  static const struct gx_spectra no_spectra;
+  const struct gx_spectra *spectra = &result->spectra;
+  struct cursor at = {0};
+  put_bin(&at, &no_spectra, 0, 0);
+  at = (struct cursor){.table = gx_table_create(at.column, spectra->samples * spectra->bins), .naming = true};
+  if (!at.table) return NULL;
+  put_bin(&at, &no_spectra, 0, 0);
+  at.naming = false;
+  for (at.row = 0; at.row < spectra->samples * spectra->bins; at.row++) {
+    at.column = 0;
+    put_bin(&at, spectra, at.row / spectra->bins, at.row % spectra->bins);
   }
   return finish(&at);
 }
