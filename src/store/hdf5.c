@@ -141,15 +141,16 @@ static int put_table(hid_t parent, const char *name, const struct gx_table *tabl
   return failed;
 }
 
-static int put_histories(hid_t file, const struct gx_study *study, const struct gx_result *results)
+/* What cases keep beside the study's table, one table each. */
+static int put_kept(hid_t file, const char *name, const struct gx_study *study, const struct gx_result *results,
+                    struct gx_table *(*table_of)(const struct gx_result *result))
 {
-  hid_t group = make_group(file, "histories");
+  hid_t group = make_group(file, name);
   int failed = group < 0 ? -1 : 0;
   for (size_t i = 0; i < study->count && !failed; i++) {
-    if (!results[i].history.samples) continue;
-    struct gx_table *history = gx_study_table_history(&results[i]);
-    failed = history ? put_table(group, study->cases[i].id, history) : -1;
-    gx_table_free(history);
+    struct gx_table *table = table_of(&results[i]);
+    failed = !table ? -1 : table->rows ? put_table(group, study->cases[i].id, table) : 0;
+    gx_table_free(table);
   }
   if (group >= 0 && H5Gclose(group) < 0) failed = -1;
   return failed;
@@ -174,7 +175,8 @@ static int put_provenance(hid_t file, const struct gx_study *study)
 static int put_study(hid_t file, const struct gx_study *study, const struct gx_result *results, const struct gx_table *table)
 {
   if (put_table(file, "table", table)) return -1;
-  if (put_histories(file, study, results)) return -1;
+  if (put_kept(file, "histories", study, results, gx_study_table_history)) return -1;
+  if (put_kept(file, "spectra", study, results, gx_study_table_spectra)) return -1;
   return put_provenance(file, study);
 }
 
@@ -418,20 +420,38 @@ static struct gx_table *get_history(hid_t group, const char *name)
   return NULL;
 }
 
+/* A group that put_kept wrote, or -1 after a message. */
+static hid_t open_kept(hid_t file, const char *path, const char *name, const char *id, FILE *errors)
+{
+  hid_t all = open_group(file, name), group = all < 0 ? -1 : open_group(all, id);
+  if (group < 0)
+    fprintf(errors, "%s: has no %s of case %s: set output.%s in its run file, and run that again\n", path, name, id, name);
+  if (all >= 0) H5Gclose(all);
+  return group;
+}
+
 struct gx_table *gx_hdf5_read_history(const char *path, const char *id, const char *name, FILE *errors)
 {
   struct silence old = silence_begin();
   struct gx_table *table = NULL;
-  hid_t file = open_study(path, errors), histories = file < 0 ? -1 : open_group(file, "histories");
-  hid_t group = histories < 0 ? -1 : open_group(histories, id);
-  if (file >= 0 && group < 0)
-    fprintf(errors, "%s: has no history of case %s: set output.histories in its run file, and run that again\n", path, id);
-  else if (file >= 0 && (!*name || strchr(name, '/') || H5Lexists(group, name, H5P_DEFAULT) <= 0))
+  hid_t file = open_study(path, errors), group = file < 0 ? -1 : open_kept(file, path, "histories", id, errors);
+  if (group >= 0 && (!*name || strchr(name, '/') || H5Lexists(group, name, H5P_DEFAULT) <= 0))
     name_histories(group, name, errors);
-  else if (file >= 0 && !(table = get_history(group, name)))
+  else if (group >= 0 && !(table = get_history(group, name)))
     fprintf(errors, "%s: the history of case %s is damaged\n", path, id);
   if (group >= 0) H5Gclose(group);
-  if (histories >= 0) H5Gclose(histories);
+  if (file >= 0) H5Fclose(file);
+  silence_end(old);
+  return table;
+}
+
+struct gx_table *gx_hdf5_read_spectra(const char *path, const char *id, FILE *errors)
+{
+  struct silence old = silence_begin();
+  struct gx_table *table = NULL;
+  hid_t file = open_study(path, errors), group = file < 0 ? -1 : open_kept(file, path, "spectra", id, errors);
+  if (group >= 0 && !(table = get_table(group))) fprintf(errors, "%s: the spectra of case %s are damaged\n", path, id);
+  if (group >= 0) H5Gclose(group);
   if (file >= 0) H5Fclose(file);
   silence_end(old);
   return table;
