@@ -2,7 +2,7 @@
 /* Frequencies of signals that are known, and of what does not vibrate. */
 #include <gridcross/frequency.h>
 
-#include "check.h"
+#include "rig.h"
 
 static struct gx_vibration fit(double frequency, double growth, double interval, int samples, double noise)
 {
@@ -60,12 +60,45 @@ static void what_does_not_vibrate_has_no_frequency(void **state)
   assert_true(isnan(gx_frequency_fit(&growing, 0).frequency));
 }
 
+static void add_third_wave(struct gx_particles *particles, void *context)
+{
+  const double *amplitude = context;
+  for (size_t p = 0; p < particles->n; p++) particles->u[0][p] += *amplitude * sin(6 * M_PI * particles->X[0][p]);
+}
+
+/* Wave 3 has the values of wave -1 at equal places of four cells: only the particles' volumes tell them apart. */
+static void projection_is_by_volume(void **state)
+{
+  (void)state;
+  struct gx_case one = case_of("problem.name=axis-aligned", "problem.amplitude=0.01", "mesh.cells=4", "mesh.particles_per_cell=6",
+                               "mesh.layout=gauss", "time.dt=1e-3");
+  double amplitude = 0.02;
+  struct rig rig;
+  assert_true(rig_build(&rig, &one, NULL, add_third_wave, &amplitude));
+  NEAR(gx_frequency_project(rig.simulation.space), 0.01, 1e-7);
+  rig_free(&rig);
+}
+
+/* In two dimensions the first direction that moves is followed. */
+static void the_direction_that_moves_is_projected(void **state)
+{
+  (void)state;
+  struct gx_case one = case_of("problem.name=axis-aligned", "problem.dimension=2", "problem.active=y", "problem.amplitude=0.01",
+                               "mesh.cells=4", "time.dt=1e-3");
+  struct rig rig;
+  assert_true(rig_build(&rig, &one, NULL, NULL, NULL));
+  NEAR(gx_frequency_project(rig.simulation.space), 0.01, 1e-15);
+  rig_free(&rig);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(one_mode_is_fitted_exactly),
       cmocka_unit_test(part_of_a_period_is_enough),
       cmocka_unit_test(noise_does_little),
+      cmocka_unit_test(projection_is_by_volume),
+      cmocka_unit_test(the_direction_that_moves_is_projected),
       cmocka_unit_test(what_does_not_vibrate_has_no_frequency),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
