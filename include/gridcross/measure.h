@@ -7,7 +7,11 @@
 #include <gridcross/space.h>
 
 enum gx_quantity { GX_DISPLACEMENT, GX_VELOCITY, GX_STRESS, GX_QUANTITIES };
-enum gx_norm { GX_INF, GX_RMS, GX_L2N, GX_NORMS }; /* max |e|; sqrt(mean |e|^2); ||e||_2 / N */
+struct gx_measure_name {
+  const char *name, *unit;
+};
+extern const struct gx_measure_name gx_measure_quantity[GX_QUANTITIES]; /* "displacement", "m"; ... */
+enum gx_norm { GX_INF, GX_RMS, GX_L2N, GX_NORMS };                      /* max |e|; sqrt(mean |e|^2); ||e||_2 / N */
 
 enum gx_measure_level { GX_MEASURE_FINAL, GX_MEASURE_MAX, GX_MEASURE_ALL }; /* output.measures */
 

@@ -11,6 +11,9 @@
 #include "../core/vector.h"
 #include "jump.h"
 
+const struct gx_measure_name gx_measure_quantity[GX_QUANTITIES] = {
+    [GX_DISPLACEMENT] = {"displacement", "m"}, [GX_VELOCITY] = {"velocity", "m/s"}, [GX_STRESS] = {"stress", "Pa"}};
+
 struct tensor_field {
   double *component[GX_MAX_TENSOR];
 };

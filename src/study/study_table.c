@@ -4,10 +4,6 @@
 
 #include <math.h>
 
-static const struct {
-  const char *name, *unit;
-} quantities[GX_QUANTITIES] = {
-    [GX_DISPLACEMENT] = {"displacement", "m"}, [GX_VELOCITY] = {"velocity", "m/s"}, [GX_STRESS] = {"stress", "Pa"}};
 static const char *const norms[GX_NORMS] = {[GX_INF] = "inf", [GX_RMS] = "rms", [GX_L2N] = "l2n"};
 
 /* One statement a column serves three passes: counting columns (no table), naming them, and filling a row. */
@@ -47,8 +43,8 @@ static void put_errors(struct cursor *at, const char *prefix, const char *moment
 {
   for (int n = 0; n < GX_NORMS; n++) {
     char name[80];
-    snprintf(name, sizeof name, "%s%s%s.%s", prefix, quantities[quantity].name, moment, norms[n]);
-    put_real(at, name, quantities[quantity].unit, valid ? error[quantity][n] : NAN);
+    snprintf(name, sizeof name, "%s%s%s.%s", prefix, gx_measure_quantity[quantity].name, moment, norms[n]);
+    put_real(at, name, gx_measure_quantity[quantity].unit, valid ? error[quantity][n] : NAN);
   }
 }
 
@@ -71,11 +67,11 @@ static void put_spectrum(struct cursor *at, const struct gx_result *result, enum
   bool any = result->outcome.status == GX_OK && spectra->samples;
   char name[80];
   for (size_t i = 0; i < sizeof band / sizeof *band; i++) {
-    snprintf(name, sizeof name, "result.spectrum.%s.%s", quantities[quantity].name, band[i].name);
-    put_real(at, name, quantities[quantity].unit,
+    snprintf(name, sizeof name, "result.spectrum.%s.%s", gx_measure_quantity[quantity].name, band[i].name);
+    put_real(at, name, gx_measure_quantity[quantity].unit,
              any ? gx_spectrum_band(spectra, spectra->samples - 1, quantity, band[i].low, band[i].high) : NAN);
   }
-  snprintf(name, sizeof name, "result.spectrum.%s.growth", quantities[quantity].name);
+  snprintf(name, sizeof name, "result.spectrum.%s.growth", gx_measure_quantity[quantity].name);
   put_real(at, name, "1/s", any ? gx_spectrum_growth(spectra, quantity, nyquist, INFINITY) : NAN);
 }
 
@@ -169,7 +165,7 @@ static void put_bin(struct cursor *at, const struct gx_spectra *spectra, size_t 
   put_real(at, "time", "s", spectra->time ? spectra->time[sample] : NAN);
   put_real(at, "wavenumber", "1/m", (double)bin * spectra->spacing);
   for (size_t q = 0; q < GX_QUANTITIES; q++)
-    put_real(at, quantities[q].name, quantities[q].unit,
+    put_real(at, gx_measure_quantity[q].name, gx_measure_quantity[q].unit,
              spectra->rms ? spectra->rms[(sample * GX_QUANTITIES + q) * spectra->bins + bin] : NAN);
 }
 
