@@ -19,7 +19,8 @@ struct gx_plot {
   const char *const *directory;        /* [studies] where histories are read */
   const char *title;                   /* "": none */
   const char *x;                       /* lines: column, NULL: as the rows of gx_comparison */
-  const char *y;                       /* lines: column, NULL: result.displacement.max.rms; history: NULL: displacement.rms */
+  const char *y;                       /* lines: column, NULL: result.displacement.max.rms; history: NULL: displacement.rms;
+                                        * spectrum: displacement, velocity or stress, NULL: displacement */
   size_t bys;
   const char *const *by; /* [bys] paths that lead the labels of lines; the other axes follow */
   size_t points;
@@ -38,5 +39,8 @@ enum gx_plot_status {
 enum gx_plot_status gx_plot_lines(const struct gx_plot *plot, FILE *errors);
 /* A history against time, one line for each case that ended ok. */
 enum gx_plot_status gx_plot_history(const struct gx_plot *plot, FILE *errors);
+/* The error's last spectrum by wavenumber, both axes logarithmic, the grid's Nyquist wavenumber marked: one line for each case
+ * that ended ok. */
+enum gx_plot_status gx_plot_spectrum(const struct gx_plot *plot, FILE *errors);
 
 #endif

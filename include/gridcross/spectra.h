@@ -18,7 +18,8 @@ struct gx_table *gx_spectra_wavenumbers(const struct gx_spectra *spectra, enum g
 struct gx_table *gx_spectra_all(size_t cases, struct gx_spectra *const *spectra, const char *const *id,
                                 enum gx_quantity quantity);
 
-/* One row a wavenumber that is not 0: content at the last sample, null where there is none. For axes that are logarithmic. */
+/* One row a wavenumber that is not 0: content at the last sample, null where it is round-off of the fullest. For axes
+ * that are logarithmic. */
 struct gx_table *gx_spectra_last(const struct gx_spectra *spectra, enum gx_quantity quantity);
 
 #endif

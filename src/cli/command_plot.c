@@ -14,7 +14,9 @@
 static const struct gx_option option[] = {
     {'o', "output", "FIGURE", "the figure, ending in .svg, .png or .pdf; FIGURE.gp and FIGURE.csv stay beside it"},
     {0, "x", "COLUMN", "lines: parameter or result across; default: mesh.cells where it varies, else time.dt, time.cfl, ..."},
-    {0, "y", "COLUMN", "lines: result.displacement.max.rms, ...; history: displacement.rms, energy.kinetic, ..."},
+    {0, "y", "COLUMN",
+     "lines: result.displacement.max.rms, ...; history: displacement.rms, energy.kinetic, ...; "
+     "spectrum: displacement, velocity, stress"},
     {0, "by", "PATH", "one line a value, shown by its colour; as often as wanted; the other axes follow in the legend"},
     {0},
 };
@@ -22,7 +24,7 @@ static const struct gx_option option[] = {
 static const struct kind {
   const char *name;
   enum gx_plot_status (*draw)(const struct gx_plot *plot, FILE *errors);
-} kinds[] = {{"lines", gx_plot_lines}, {"history", gx_plot_history}};
+} kinds[] = {{"lines", gx_plot_lines}, {"history", gx_plot_history}, {"spectrum", gx_plot_spectrum}};
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
 /* The kind that the last operand names, NULL: it names a study. A study of that name is written ./lines. */
@@ -42,7 +44,7 @@ static int check_kind(const char *name)
   for (int k = 0; k < KINDS; k++) gx_nearest_try(&near, kinds[k].name);
   fprintf(stderr, "gridcross plot: '%s' is neither a study nor a kind", name);
   if (*near.best) fprintf(stderr, ": did you mean %s?", near.best);
-  fputs(*near.best ? "\n" : "; kinds are lines and history\n", stderr);
+  fputs(*near.best ? "\n" : "; kinds are lines, history and spectrum\n", stderr);
   return GX_EXIT_USAGE;
 }
 
@@ -78,8 +80,9 @@ int gx_command_plot_figure(const struct gx_options *options, size_t points, cons
     fputs("gridcross plot: name the figure: -o FIGURE.svg, FIGURE.png or FIGURE.pdf\n", stderr);
     return GX_EXIT_USAGE;
   }
-  if (kind && kind->draw == gx_plot_history && gx_options_value(options, "x")) {
-    fputs("gridcross plot: a history is drawn against time: leave out --x\n", stderr);
+  if (kind && kind->draw != gx_plot_lines && gx_options_value(options, "x")) {
+    fprintf(stderr, "gridcross plot: a %s is drawn against %s: leave out --x\n", kind->name,
+            kind->draw == gx_plot_history ? "time" : "wavenumber");
     return GX_EXIT_USAGE;
   }
   if (options->operands > 1 && !kind && check_kind(last)) return GX_EXIT_USAGE;
@@ -102,10 +105,10 @@ static int run(const struct gx_options *options)
 
 const struct gx_command gx_command_plot = {
     .name = "plot",
-    .operands = "DIR... [lines|history]",
+    .operands = "DIR... [lines|history|spectrum]",
     .least = 1,
     .most = -1,
-    .help = "Draw a figure of studies by gnuplot: errors and other results as lines, or histories.",
+    .help = "Draw a figure of studies by gnuplot: errors and other results as lines, histories, or errors by wavenumber.",
     .option = option,
     .run = run,
 };

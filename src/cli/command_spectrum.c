@@ -126,10 +126,15 @@ static int print_one(const struct request *request)
   if (!spectra) return GX_EXIT_USAGE;
   printf("case %s: error of %s, root mean square of its parts\n", id_of(request->table, request->row[0]),
          gx_measure_quantity[request->quantity].name);
+  struct gx_value frequency = value_of(request->table, request->row[0], "result.frequency");
+  struct gx_value ratio = value_of(request->table, request->row[0], "result.frequency.ratio");
+  if (frequency.type == GX_REAL && ratio.type == GX_REAL)
+    printf("frequency of the driven mode %.10g/s, exactly %.10g/s: ratio %.10g\n", frequency.real, frequency.real / ratio.real,
+           ratio.real);
   printf("driven wavenumber %g/m, Nyquist wavenumber of the grid %g/m, %zu samples\n\n", spectra->driven, spectra->nyquist,
          spectra->samples);
   int code = print_sheet(gx_spectra_times(spectra, request->quantity, TIMES));
-  putchar('\n');
+  if (!code) putchar('\n');
   if (!code) code = print_sheet(gx_spectra_wavenumbers(spectra, request->quantity));
   gx_store_free_spectra(spectra);
   return code;
@@ -141,7 +146,7 @@ static struct gx_table *summary(const struct request *request)
   static const char *const part[] = {"below", "above", "driven", "growth"};
   enum { PARTS = sizeof part / sizeof *part };
   const struct gx_table *full = request->table;
-  size_t *column = calloc(full->columns + PARTS + 2, sizeof *column);
+  size_t *column = calloc(full->columns + PARTS + 3, sizeof *column);
   long axes = column ? gx_axes_find(full, 0, column + 1) : -1;
   size_t count = (size_t)(axes + 1);
   for (size_t i = 0; i < PARTS && axes >= 0; i++) {
@@ -150,8 +155,12 @@ static struct gx_table *summary(const struct request *request)
     long c = gx_table_find(full, name);
     if (c >= 0) column[count++] = (size_t)c;
   }
-  long status = gx_table_find(full, "result.status"), id = gx_table_find(full, "case");
-  if (status >= 0) column[count++] = (size_t)status;
+  static const char *const other[] = {"result.frequency.ratio", "result.status"};
+  for (size_t i = 0; i < sizeof other / sizeof *other && axes >= 0; i++) {
+    long c = gx_table_find(full, other[i]);
+    if (c >= 0) column[count++] = (size_t)c;
+  }
+  long id = gx_table_find(full, "case");
   if (id >= 0 && axes >= 0) column[0] = (size_t)id;
   struct gx_table *table = axes < 0 ? NULL : gx_table_create(count, request->rows);
   int failed = !table;
@@ -191,8 +200,8 @@ const struct gx_command gx_command_spectrum = {
     .least = 1,
     .most = 1,
     .help =
-        "Show errors by wavenumber, of studies run with output.spectra: the parts that the grid can hold and those it cannot.\n"
-        "For example: gridcross run runs/spectra.yaml && gridcross spectrum spectra.study --quantity stress",
+        "Show errors by wavenumber, of studies run with output.spectra: the parts that the grid can hold and those it cannot.",
+    .example = "gridcross run runs/spectra.yaml && gridcross spectrum spectra.study --quantity stress",
     .option = option,
     .run = run,
 };

@@ -23,6 +23,7 @@ struct gx_command {
   const char *operands; /* as usage prints them */
   int least, most;      /* operands; most < 0: any number */
   const char *help;
+  const char *example;            /* NULL: none */
   const struct gx_option *option; /* ended by {0} */
   int (*run)(const struct gx_options *options);
 };

@@ -15,6 +15,7 @@ struct gx_figure_line {
   size_t first, count;      /* rows of data */
   int colour, marker, dash; /* from 0; taken modulo what there is */
   double order;             /* for the legend; NaN: none */
+  double nyquist;           /* x of a vertical line; NaN: none */
   bool printed;             /* points of a paper: circles, no line */
 };
 

@@ -173,6 +173,20 @@ static void put_triangle(const struct gx_figure *figure, FILE *out)
   fprintf(out, "set label '1' at %.17g,%.17g center offset 0,-0.8\n", sqrt(at[1][0] * at[2][0]), at[2][1]);
 }
 
+/* Vertical lines where the grids of the lines end, each once. */
+static void put_nyquist(const struct gx_figure *figure, FILE *out)
+{
+  for (size_t i = 0; i < figure->lines; i++) {
+    double at = figure->line[i].nyquist;
+    bool seen = isnan(at) || (figure->x.log && at <= 0);
+    for (size_t k = 0; k < i && !seen; k++) seen = figure->line[k].nyquist == at;
+    if (seen) continue;
+    fprintf(out, "set arrow from first %.17g, graph 0 to first %.17g, graph 1 nohead dashtype 3 linecolor rgb '#666666'\n", at,
+            at);
+    fprintf(out, "set label 'Nyquist' at first %.17g, graph 0.97 right rotate by 90 offset -1.2,0 textcolor rgb '#666666'\n", at);
+  }
+}
+
 /* "./<name>.<ending>", byte for byte */
 static void put_file(const char *name, const char *ending, FILE *out)
 {
@@ -228,6 +242,7 @@ void gx_gnuplot_write(const struct gx_figure *figure, const char *stem, const ch
   put_axis("y", &figure->y, 0, value, out);
   fputs("set border 3\nset tics nomirror\nset grid linecolor rgb '#d0d0d0' linewidth 1\n", out);
   if (figure->triangle_slope != 0) put_triangle(figure, out);
+  put_nyquist(figure, out);
   put_lines(figure, stem, out);
 }
 

@@ -11,6 +11,7 @@
 #include <gridcross/store.h>
 
 #include "axes.h"
+#include "curve.h"
 #include "figure.h"
 #include "pivot.h"
 #include "sheet.h"
@@ -189,6 +190,7 @@ static int begin_line(struct sketch *sketch, size_t column, bool row_too, size_t
       .marker = (int)(one_style ? colour : style + colour / COLOURS),
       .dash = (int)(one_style ? colour / COLOURS : style),
       .order = NAN,
+      .nyquist = NAN,
   };
   return sketch->figure.line[sketch->figure.lines - 1].label ? 0 : -1;
 }
@@ -352,47 +354,46 @@ enum gx_plot_status gx_plot_lines(const struct gx_plot *plot, FILE *errors)
   return status;
 }
 
-/* The study that a row of the joined table came from. */
-static size_t study_of(const struct gx_plot *plot, size_t table_row)
+/* The study that a row of the joined table came from; row becomes that of its own table. */
+static size_t study_of(const struct gx_plot *plot, size_t *row)
 {
   size_t s = 0;
-  for (; table_row >= plot->table[s]->rows; s++) table_row -= plot->table[s]->rows;
+  for (; *row >= plot->table[s]->rows; s++) *row -= plot->table[s]->rows;
   return s;
 }
 
-/* history: [rows][columns] of the pivot; NULL: not drawn. Returns 0, or -1 after a message. */
-static int read_histories(struct sketch *sketch, const char *name, struct gx_table **history, FILE *errors)
+/* curve: [rows][columns] of the pivot. Returns 0, or -1 after a message. */
+static int read_curves(struct sketch *sketch, const struct gx_curves *kind, struct gx_curve *curve, FILE *errors)
 {
   const struct gx_pivot *pivot = sketch->pivot;
-  long id = gx_table_find(pivot->table, "case");
+  const char *name = sketch->plot->y ? sketch->plot->y : kind->name;
   for (size_t i = 0; i < pivot->rows * pivot->columns; i++) {
     long at = pivot->cell[i];
-    if (at < 0 || id < 0 || !drawable(sketch, at)) continue;
-    size_t s = study_of(sketch->plot, (size_t)at);
-    history[i] =
-        gx_store_read_history(sketch->plot->directory[s], gx_table_get(pivot->table, (size_t)at, (size_t)id).text, name, errors);
-    if (!history[i]) return -1;
-    if (!numeric(history[i], 1, "--y", errors)) return -1;
+    if (at < 0 || gx_table_find(pivot->table, "case") < 0 || !drawable(sketch, at)) continue;
+    size_t row = (size_t)at, study = study_of(sketch->plot, &row);
+    curve[i] = kind->read(sketch->plot, study, row, name, errors);
+    if (!curve[i].table || !numeric(curve[i].table, 1, "--y", errors)) return -1;
   }
   return 0;
 }
 
-static int fill_history(struct sketch *sketch, struct gx_table *const *history)
+static int fill_curves(struct sketch *sketch, const struct gx_curve *curve)
 {
   const struct gx_pivot *pivot = sketch->pivot;
   size_t cells = pivot->rows * pivot->columns, samples = 0;
   const struct gx_table *any = NULL;
   for (size_t i = 0; i < cells; i++) {
-    if (!history[i]) continue;
-    samples += history[i]->rows;
-    any = history[i];
+    if (!curve[i].table) continue;
+    samples += curve[i].table->rows;
+    any = curve[i].table;
   }
   int failed = any ? create_data(sketch, samples, &any->column[0], &any->column[1]) : 0;
   for (size_t c = 0; c < pivot->columns && any && !failed; c++)
     for (size_t r = 0; r < pivot->rows && !failed; r++) {
-      const struct gx_table *one = history[r * pivot->columns + c];
+      const struct gx_table *one = curve[r * pivot->columns + c].table;
       if (!one) continue;
       failed = begin_line(sketch, c, pivot->rows > 1, r);
+      sketch->figure.line[sketch->figure.lines - 1].nyquist = curve[r * pivot->columns + c].nyquist;
       for (size_t k = 0; k < one->rows && !failed; k++)
         if (gx_table_get(one, k, 1).type != GX_NULL) failed = add_point(sketch, gx_table_get(one, k, 0), gx_table_get(one, k, 1));
       if (failed) continue;
@@ -403,36 +404,40 @@ static int fill_history(struct sketch *sketch, struct gx_table *const *history)
   return failed;
 }
 
-/* Errors grow over orders of magnitude from an exact start; energies swing. */
-static bool error_history(const char *name)
+static enum gx_plot_status plot_curves(const struct gx_plot *plot, const struct gx_curves *kind, FILE *errors)
 {
-  return !strncmp(name, "displacement.", 13) || !strncmp(name, "velocity.", 9) || !strncmp(name, "stress.", 7);
-}
-
-enum gx_plot_status gx_plot_history(const struct gx_plot *plot, FILE *errors)
-{
-  const char *name = plot->y ? plot->y : "displacement.rms", *const value[] = {"case"};
+  const char *const value[] = {"case"};
   bool by_study = false;
   for (size_t b = 0; b < plot->bys; b++) by_study = by_study || !strcmp(plot->by[b], "study");
   struct sketch sketch = sketch_create(plot, by_study ? NULL : "study", 1, value, errors);
   size_t cells = sketch.pivot ? sketch.pivot->rows * sketch.pivot->columns : 0;
-  struct gx_table **history = calloc(cells + 1, sizeof *history);
+  struct gx_curve *curve = calloc(cells + 1, sizeof *curve);
   enum gx_plot_status status = GX_PLOT_REFUSED;
-  if (!history || (sketch.pivot && choose_styles(&sketch))) {
+  if (!curve || (sketch.pivot && choose_styles(&sketch))) {
     status = no_memory(errors);
-  } else if (sketch.pivot && !read_histories(&sketch, name, history, errors)) {
-    struct gx_figure *figure = &sketch.figure;
-    if (fill_history(&sketch, history)) {
+  } else if (sketch.pivot && !read_curves(&sketch, kind, curve, errors)) {
+    if (fill_curves(&sketch, curve)) {
       status = no_memory(errors);
     } else {
-      figure->dense = true;
-      figure->x = axis_of(figure, GX_FIGURE_X, INFINITY, 0);
-      figure->y = axis_of(figure, GX_FIGURE_Y, error_history(name) ? 10 : INFINITY, 1);
+      sketch.figure.dense = true;
+      sketch.figure.x = axis_of(&sketch.figure, GX_FIGURE_X, kind->in_time ? INFINITY : 10, 0);
+      sketch.figure.y =
+          axis_of(&sketch.figure, GX_FIGURE_Y, gx_curve_is_error(plot->y ? plot->y : kind->name) ? 10 : INFINITY, kind->in_time);
       status = draw(&sketch, errors);
     }
   }
-  for (size_t i = 0; history && i < cells; i++) gx_table_free(history[i]);
-  free(history);
+  for (size_t i = 0; curve && i < cells; i++) gx_table_free(curve[i].table);
+  free(curve);
   sketch_free(&sketch);
   return status;
+}
+
+enum gx_plot_status gx_plot_history(const struct gx_plot *plot, FILE *errors)
+{
+  return plot_curves(plot, &gx_curve_history, errors);
+}
+
+enum gx_plot_status gx_plot_spectrum(const struct gx_plot *plot, FILE *errors)
+{
+  return plot_curves(plot, &gx_curve_spectrum, errors);
 }

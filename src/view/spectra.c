@@ -117,10 +117,12 @@ struct gx_table *gx_spectra_last(const struct gx_spectra *spectra, enum gx_quant
   const struct gx_measure_name *name = &gx_measure_quantity[quantity];
   int failed = !table || gx_table_column(table, 0, "wavenumber", "1/m", GX_REAL) ||
                gx_table_column(table, 1, name->name, name->unit, GX_REAL);
+  double most = 0;
+  for (size_t b = 1; b < spectra->bins; b++) most = fmax(most, content(spectra, quantity, spectra->samples - 1, b));
   for (size_t b = 1; b < spectra->bins && !failed; b++) {
     double part = content(spectra, quantity, spectra->samples - 1, b);
     failed = gx_table_set(table, b - 1, 0, real_value((double)b * spectra->spacing)) ||
-             gx_table_set(table, b - 1, 1, real_value(part > 0 ? part : NAN));
+             gx_table_set(table, b - 1, 1, real_value(part > 1e-12 * most ? part : NAN));
   }
   return keep(table, failed);
 }

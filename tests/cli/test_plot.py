@@ -191,6 +191,25 @@ class History(Case):
         self.assertIn("set output.histories", self.call("plot", "none.study", "history", "-o", "fig.svg", code=2).stderr)
 
 
+class Spectrum(Case):
+    def test_last_sample_with_the_grid_marked(self):
+        self.run_study("small.yaml", "--set", "output.spectra=3")
+        self.plot("spectrum", "--y", "stress", "-o", "fig.svg", "--by", "method.space")
+        rows = self.rows("fig.csv")
+        self.assertEqual(list(rows[0]), ["line", "wavenumber", "stress", "label"])
+        for case in self.table():
+            label = f"{case['method.space']}, cells {case['mesh.cells']}, degree {case['method.degree']}"
+            mine = [r for r in rows if r["label"] == label]
+            self.assertEqual([float(r["wavenumber"]) for r in mine], sorted(float(r["wavenumber"]) for r in mine))
+            above = sum(float(r["stress"]) ** 2 for r in mine if float(r["wavenumber"]) > int(case["mesh.cells"]) / 2)
+            self.assertTrue(math.isclose(above, float(case["result.spectrum.stress.above"]) ** 2, rel_tol=1e-9), label)
+        self.assertEqual(self.texts("fig.svg").count("Nyquist"), 3)  # of 8, 16 and 32 cells
+        script = (self.dir / "fig.gp").read_text()
+        for line in ("set logscale x\n", "set logscale y\n", "from first 4,", "from first 8,", "from first 16,"):
+            self.assertIn(line, script)
+        self.assertNotIn("Nyquist", self.plot("history", "-o", "history.svg").stderr + (self.dir / "history.gp").read_text())
+
+
 class Hostile(Case):
     def assert_inert(self, *figures):
         found = [p.name for p in self.dir.rglob("*") if re.fullmatch(r"p\d", p.name)]
@@ -256,8 +275,10 @@ class Messages(Case):
             (["--y", "result.crosings"], "did you mean result.crossings?"), (["--x", "mesh.cell"], "did you mean mesh.cells?"),
             (["--by", "method.spce"], "did you mean method.space?"), (["--x", "method.space"], "not a number"),
             (["--y", "result.status"], "not a number"), (["--x", "mesh.cells", "--by", "mesh.cells"], "both"),
-            (["--y", "result.reason"], "not a number"), (["histry"], "did you mean history?"), (["xt"], "lines and history"),
-            (["none/"], "none"), (["history", "--x", "time"], "leave out --x"), (["history", "--y", "status"], "no history"),
+            (["--y", "result.reason"], "not a number"), (["histry"], "did you mean history?"), (["xt"], "lines, history and spectrum"),
+            (["none/"], "none"), (["history", "--x", "time"], "leave out --x"),
+            (["spectrum", "--x", "wavenumber"], "leave out --x"), (["spectrum", "--y", "strain"], "no spectrum"),
+            (["spectrum"], "set output.spectra"), (["spektrum"], "did you mean spectrum?"), (["history", "--y", "status"], "no history"),
             (["history", "--y", "energy.kinetc"], "did you mean energy.kinetic?"), (["history", "--y", ""], "no history"),
             (["history", "--y", "."], "no history"), (["history", "--y", "/table"], "no history"),
             (["--y", "result.particle"], "nothing to draw"),
