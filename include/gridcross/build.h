@@ -7,7 +7,7 @@ struct gx_build {
   const char *version;
   const char *git_revision; /* "unknown" outside a git checkout; ends in -dirty when files were changed */
   const char *compiler, *flags;
-  const char *gsl, *hdf5, *yaml; /* versions */
+  const char *gsl, *fftw, *hdf5, *yaml; /* versions */
 };
 
 extern const struct gx_build gx_build;

@@ -30,8 +30,8 @@ static void print_version(void)
 {
   printf("gridcross %s (revision %s)\n"
          "compiler %s\n"
-         "GSL %s, HDF5 %s, libyaml %s\n",
-         gx_build.version, gx_build.git_revision, gx_build.compiler, gx_build.gsl, gx_build.hdf5, gx_build.yaml);
+         "GSL %s, FFTW %s, HDF5 %s, libyaml %s\n",
+         gx_build.version, gx_build.git_revision, gx_build.compiler, gx_build.gsl, gx_build.fftw, gx_build.hdf5, gx_build.yaml);
 }
 
 static const struct gx_command *find_command(const char *name)

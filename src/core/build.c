@@ -11,6 +11,7 @@ const struct gx_build gx_build = {
     .compiler = GX_COMPILER,
     .flags = GX_FLAGS,
     .gsl = GX_GSL_VERSION,
+    .fftw = GX_FFTW_VERSION,
     .hdf5 = GX_HDF5_VERSION,
     .yaml = GX_YAML_VERSION,
 };

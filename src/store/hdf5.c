@@ -163,8 +163,8 @@ static int put_provenance(hid_t file, const struct gx_study *study)
   } rows[] = {{"title", study->title},         {"run_file", study->source},
               {"version", gx_build.version},   {"git_revision", gx_build.git_revision},
               {"compiler", gx_build.compiler}, {"flags", gx_build.flags},
-              {"gsl", gx_build.gsl},           {"hdf5", gx_build.hdf5},
-              {"yaml", gx_build.yaml}};
+              {"gsl", gx_build.gsl},           {"fftw", gx_build.fftw},
+              {"hdf5", gx_build.hdf5},         {"yaml", gx_build.yaml}};
   hid_t group = make_group(file, "provenance");
   if (group < 0) return -1;
   int failed = put_integer(group, "format", FORMAT);

@@ -50,7 +50,7 @@ class Help(Case):
 
     def test_version_names_libraries(self):
         out = self.call("--version").stdout
-        for word in ("gridcross ", "GSL ", "HDF5 ", "libyaml ", "compiler "):
+        for word in ("gridcross ", "GSL ", "FFTW ", "HDF5 ", "libyaml ", "compiler "):
             self.assertIn(word, out)
 
     def test_lists(self):
@@ -216,7 +216,7 @@ assert t["result.dt"].attrs["unit"] == "s" and t["mesh.cells"].attrs["null"] == 
 assert t["result.displacement.max.rms"].dtype == "float64"
 p = dict(f["provenance"].attrs)
 assert p["format"] == 1 and p["title"] == "small" and p["run_file"].startswith("title: small"), p
-assert all(p[k] for k in ("version", "git_revision", "compiler", "flags", "gsl", "hdf5", "yaml"))
+assert all(p[k] for k in ("version", "git_revision", "compiler", "flags", "gsl", "fftw", "hdf5", "yaml"))
 h = f["histories"][t["case"].asstr()[0]]
 assert len(h["time"]) > 2 and h["time"].attrs["unit"] == "s" and h["stress.rms"].attrs["unit"] == "Pa"
 assert set(h) >= {"displacement.inf", "energy.kinetic", "energy.kinetic_nodes", "energy.elastic", "energy.work",
