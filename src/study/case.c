@@ -93,10 +93,13 @@ static enum gx_status prepare_spectra(struct run *run)
       .nyquist = 0.5 * cells,
       .driven = simulation->problem_options.mode,
   };
+  const double most = 1e8; /* numbers kept: a slip, or more than can be looked at */
   double samples = floor(simulation->steps / run->spectra_every) + 2, each = (double)(GX_QUANTITIES * spectra->bins);
-  bool fits = samples * each < 1e9;
-  spectra->time = fits ? malloc((size_t)samples * sizeof(double)) : NULL;
-  spectra->rms = fits ? malloc((size_t)samples * GX_QUANTITIES * spectra->bins * sizeof(double)) : NULL;
+  if (samples * each > most)
+    return gx_status_set(&run->result->outcome, GX_REFUSED, -1,
+                         "%.3g spectra of %.3g numbers each are too many: make output.spectra larger", samples, each);
+  spectra->time = malloc((size_t)samples * sizeof(double));
+  spectra->rms = malloc((size_t)samples * GX_QUANTITIES * spectra->bins * sizeof(double));
   if (spectra->time && spectra->rms) return GX_OK;
   return gx_status_set(&run->result->outcome, GX_FAILED, -1, "out of memory for %.3g spectra", samples);
 }

@@ -18,7 +18,7 @@ struct gx_simulation {
   double start, end, dt; /* s */
   double steps;
   double frequency; /* of the exact solution, 1/s */
-  bool built; /* the three below exist */
+  bool built;       /* the three below exist */
   struct gx_particles *particles;
   struct gx_posed *posed;
   struct gx_space *space;

@@ -123,6 +123,12 @@ class Spectrum(Case):
         self.assertIn("four times a period", self.table()[0]["result.reason"])
 
 
+    def test_more_spectra_than_anyone_can_look_at_are_refused(self):
+        self.call("run", "small.yaml", "-q", "--set", "time.cfl=1e-6", "--set", "output.spectra=1")
+        self.assertEqual({row["result.status"] for row in self.table()}, {"refused"})
+        self.assertIn("make output.spectra larger", self.table()[0]["result.reason"])
+
+
 class Files(Case):
     def test_equal_bytes_for_every_j(self):
         for j, name in ((1, "a"), (8, "b")):
