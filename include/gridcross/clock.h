@@ -50,6 +50,15 @@ struct gx_clock {
 extern const struct gx_clock *const gx_clock_family[];
 const struct gx_clock *gx_clock_find(const char *name);
 
+/* What a step takes where: at positions of time t + time dt the velocity changes by kick dt times the acceleration there, and
+ * positions by drift dt times the velocity of the time at which the kicks so far have left it, velocity_time dt after the start. */
+struct gx_clock_stage {
+  double time, kick, drift, velocity_time;
+};
+/* The stages of a step in their order, the first at its start; plain: weights never change. stage: [GX_MAX_STAGES + 1]. Returns how
+ * many. */
+int gx_clock_stages(const struct gx_clock *clock, bool plain, struct gx_clock_stage *stage);
+
 /* Called with the body force and velocity of a stage: its weight (s) in the work integral. */
 struct gx_work_observer {
   void *context;

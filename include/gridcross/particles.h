@@ -33,6 +33,8 @@ struct gx_particles {
 /* Particles at rest, F = I, in the box [0,1]^dim of cells[d] cells with per_cell particles per cell and direction,
  * ordered cell by cell (first direction fastest). density: kg/m^dim. NULL when memory runs out. */
 struct gx_particles *gx_particles_create(int dim, const int *cells, int per_cell, enum gx_layout layout, double density);
+/* A copy with its own memory; NULL when that runs out. */
+struct gx_particles *gx_particles_copy(const struct gx_particles *particles);
 void gx_particles_free(struct gx_particles *particles);
 
 /* det F of one particle */

@@ -5,6 +5,7 @@
 
 #include <stdio.h>
 
+#include <gridcross/budget.h>
 #include <gridcross/frequency.h>
 #include <gridcross/measure.h>
 #include <gridcross/parameter.h>
@@ -40,10 +41,11 @@ void gx_runfile_free(struct gx_study *study);
 
 struct gx_history {
   size_t samples;
-  struct gx_sample *sample; /* [samples], owned */
-  struct gx_probe *probe;   /* [samples], owned; NULL: none asked for */
-  int dim;                  /* components of the probe's vectors */
-  bool jumps;               /* jump errors were measured */
+  struct gx_sample *sample;        /* [samples], owned */
+  struct gx_probe *probe;          /* [samples], owned; NULL: none asked for */
+  int dim;                         /* components of the probe's vectors */
+  bool jumps;                      /* jump errors were measured */
+  struct gx_budget_values *budget; /* [samples] of the step that ended there, owned; NULL: not asked */
 };
 
 struct gx_result {
@@ -55,6 +57,7 @@ struct gx_result {
   struct gx_measured measured;
   long probe;                                /* index of the particle followed; -1: none */
   double reference[GX_QUANTITIES][GX_NORMS]; /* final state less that of dt / output.reference; NaN: not asked */
+  struct gx_budget_values budget;            /* over the steps that output.budget names; NaN: not asked */
   double seconds;                            /* processor time of the steps, measures excluded */
   double ns_per_particle_step;               /* NaN: no step was taken */
   struct gx_history history;

@@ -19,10 +19,20 @@ static double *place(double **component, int count, double *at, size_t stride)
   return at;
 }
 
+static size_t arrays_of(int dim)
+{
+  return 5 * (size_t)dim + 2 * (size_t)(dim * dim) + 2;
+}
+
+/* One cache line more, or arrays of 2^k entries would share a cache set. */
+static size_t stride_of(size_t n)
+{
+  return (n + 7) / 8 * 8 + 8;
+}
+
 static struct gx_particles *allocate(int dim, size_t n)
 {
-  size_t arrays = 5 * (size_t)dim + 2 * (size_t)(dim * dim) + 2;
-  size_t stride = (n + 7) / 8 * 8 + 8; /* one cache line more, or arrays of 2^k entries would share a cache set */
+  size_t arrays = arrays_of(dim), stride = stride_of(n);
   if (stride < n || stride > SIZE_MAX / sizeof(double) / arrays) return NULL;
   struct gx_particles *particles = calloc(1, sizeof *particles);
   if (!particles) return NULL;
@@ -100,6 +110,13 @@ struct gx_particles *gx_particles_create(int dim, const int *cells, int per_cell
   for (size_t p = 0; p < n; p++) place_particle(particles, p, cells, per_cell, point, point + per_cell, density);
   free(point);
   return particles;
+}
+
+struct gx_particles *gx_particles_copy(const struct gx_particles *particles)
+{
+  struct gx_particles *copy = allocate(particles->dim, particles->n);
+  if (copy) memcpy(copy->block, particles->block, stride_of(copy->n) * arrays_of(copy->dim) * sizeof(double));
+  return copy;
 }
 
 void gx_particles_free(struct gx_particles *particles)

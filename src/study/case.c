@@ -15,11 +15,14 @@ struct run {
   struct gx_simulation simulation;
   struct gx_stepper *stepper;
   struct gx_measure *measure;
+  struct gx_budget *budget;         /* NULL: not asked */
+  struct gx_budget_values budgeted; /* of the step under way; NaN: not due */
   struct gx_result *result;
   enum gx_measure_level level;
   double history_every; /* steps; 0: none; the same below */
   double spectra_every;
   double frequency_every;
+  double budget_every;
   struct gx_spectrum *spectrum;
   struct gx_frequency frequency;
   const char *accumulate; /* time.accumulate */
@@ -27,7 +30,7 @@ struct run {
   double kinetic_limit;   /* J */
   double samples, timed;  /* taken; whose cost was read from the clock */
   double timed_seconds;   /* of processor time */
-  double observing;       /* s of it for jumps, spectra and frequency */
+  double observing;       /* s of it for jumps, spectra, frequency and budgets */
 };
 
 /* Of this thread's own work: other cases and other programs do not count. */
@@ -68,13 +71,16 @@ static size_t nearest_particle(const struct gx_particles *particles, const char 
 static enum gx_status prepare_history(struct run *run)
 {
   struct gx_history *history = &run->result->history;
-  double samples = floor(run->simulation.steps / run->history_every) + 2;
+  double samples = 0;
+  if (run->history_every > 0) samples += floor(run->simulation.steps / run->history_every) + 2;
+  if (run->budget_every > 0) samples += floor(run->simulation.steps / run->budget_every) + 2;
   bool probed = run->result->probe >= 0, fits = samples < 1e9;
   history->jumps = run->simulation.jumps;
   history->dim = run->simulation.particles->dim;
   history->sample = fits ? malloc((size_t)samples * sizeof *history->sample) : NULL;
   history->probe = fits && probed ? malloc((size_t)samples * sizeof *history->probe) : NULL;
-  if (history->sample && (history->probe || !probed)) return GX_OK;
+  history->budget = fits && run->budget ? malloc((size_t)samples * sizeof *history->budget) : NULL;
+  if (history->sample && (history->probe || !probed) && (history->budget || !run->budget)) return GX_OK;
   return gx_status_set(&run->result->outcome, GX_FAILED, -1, "out of memory for %.3g history samples", samples);
 }
 
@@ -118,6 +124,7 @@ static enum gx_status prepare(struct run *run, const struct gx_case *one, double
   run->history_every = (double)one->value[GX_OUTPUT_HISTORIES].integer;
   run->spectra_every = (double)one->value[GX_OUTPUT_SPECTRA].integer;
   run->frequency_every = (double)one->value[GX_OUTPUT_FREQUENCY].integer;
+  run->budget_every = one->value[GX_OUTPUT_BUDGET].type == GX_INTEGER ? (double)one->value[GX_OUTPUT_BUDGET].integer : 0;
   run->accumulate = one->value[GX_TIME_ACCUMULATE].text;
   const int *cells = simulation->space->through_cells ? simulation->space_options.cells : NULL;
   run->measure = gx_measure_create(simulation->space, simulation->clock, cells, run->level);
@@ -131,7 +138,9 @@ static enum gx_status prepare(struct run *run, const struct gx_case *one, double
   }
   if (simulation->jumps && gx_measure_jumps(run->measure))
     return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the jumps");
-  if (run->history_every > 0) GX_TRY(prepare_history(run));
+  if (run->budget_every > 0)
+    GX_TRY(gx_budget_create(&run->budget, simulation->space, &simulation->space_options, simulation->clock, outcome));
+  if (run->history_every > 0 || run->budget_every > 0) GX_TRY(prepare_history(run));
   if (run->spectra_every > 0) GX_TRY(prepare_spectra(run));
   run->frequency.interval = run->frequency_every * simulation->dt;
   double m = 0, c = simulation->posed->speed;
@@ -168,11 +177,31 @@ static void take_spectrum(struct run *run)
   run->observing += seconds_now() - before;
 }
 
+/* The step that ends there, whose budget was taken. */
+static bool is_budgeted(const struct run *run, double step)
+{
+  return run->budget && step > 0 && (is_due(run->budget_every, step) || step == run->simulation.steps);
+}
+
+/* Of the step to come, before the run can fail in it. */
+static enum gx_status take_budget(struct run *run, double step)
+{
+  const struct gx_simulation *simulation = &run->simulation;
+  run->budgeted = (struct gx_budget_values){.time = NAN};
+  for (int i = 0; i < GX_BUDGET_ENTRIES; i++) run->budgeted.value[i] = NAN;
+  if (!is_budgeted(run, step)) return GX_OK;
+  double before = seconds_now();
+  if (gx_budget_take(run->budget, run->time, simulation->dt, &run->budgeted))
+    return gx_status_set(&run->result->outcome, GX_FAILED, -1, "out of memory for the budget");
+  run->observing += seconds_now() - before;
+  return GX_OK;
+}
+
 static enum gx_status take_sample(struct run *run, double step)
 {
   const struct gx_simulation *simulation = &run->simulation;
   bool last = step == simulation->steps;
-  bool kept = is_due(run->history_every, step) || (last && run->history_every > 0);
+  bool kept = is_due(run->history_every, step) || (last && run->history_every > 0) || is_budgeted(run, step);
   bool transformed = is_due(run->spectra_every, step) || (last && run->spectra_every > 0);
   if (run->level == GX_MEASURE_FINAL && !last && !kept && !transformed) return GX_OK;
   bool reused = gx_stepper_starts_accelerated(run->stepper); /* by the next step: not a cost of measuring */
@@ -184,6 +213,7 @@ static enum gx_status take_sample(struct run *run, double step)
   run->timed += timed;
   struct gx_history *history = &run->result->history;
   if (kept && history->probe) history->probe[history->samples] = *gx_measure_probe(run->measure);
+  if (kept && history->budget) history->budget[history->samples] = run->budgeted;
   if (kept) history->sample[history->samples++] = gx_measure_result(run->measure)->last;
   if (transformed) take_spectrum(run);
   return GX_OK;
@@ -237,9 +267,11 @@ static enum gx_status march(struct run *run)
 {
   const struct gx_simulation *simulation = &run->simulation;
   struct gx_result *result = run->result;
+  for (int i = 0; i < GX_BUDGET_ENTRIES; i++) run->budgeted.value[i] = NAN;
   GX_TRY(take_sample(run, 0));
   sample_frequency(run, 0);
   for (double step = 1; step <= simulation->steps; step++) {
+    GX_TRY(take_budget(run, step));
     GX_TRY(gx_stepper_step(run->stepper, run->time, simulation->dt));
     if (simulation->jumps) measure_jumps(run);
     advance_time(run, step);
@@ -261,6 +293,7 @@ static void finish(struct run *run)
   gx_stepper_free(run->stepper);
   gx_measure_free(run->measure);
   gx_spectrum_free(run->spectrum);
+  gx_budget_free(run->budget);
   gx_simulation_free(&run->simulation);
 }
 
@@ -314,6 +347,7 @@ static void compare_with_reference(const struct run *run, const struct gx_case *
   final_only.value[GX_OUTPUT_PROBE].type = final_only.value[GX_OUTPUT_JUMPS].type = GX_NULL;
   final_only.value[GX_OUTPUT_SPECTRA].integer = 0;
   final_only.value[GX_OUTPUT_FREQUENCY].integer = 0;
+  final_only.value[GX_OUTPUT_BUDGET].type = GX_NULL;
   struct gx_result result = {.outcome = {.status = GX_OK, .particle = -1}};
   struct run fine = {.result = &result};
   if (prepare(&fine, &final_only, refine) == GX_OK && march(&fine) == GX_OK)
@@ -334,12 +368,14 @@ struct gx_result gx_case_run(const struct gx_case *one)
                              .vibration = {NAN, NAN}};
   for (int q = 0; q < GX_QUANTITIES; q++)
     for (int k = 0; k < GX_NORMS; k++) result.reference[q][k] = NAN;
+  for (int i = 0; i < GX_BUDGET_ENTRIES; i++) result.budget.value[i] = NAN;
   struct run run = {.result = &result};
   if (prepare(&run, one, 1) == GX_OK) {
     double before = seconds_now(), refine = (double)one->value[GX_OUTPUT_REFERENCE].integer;
     bool done = march(&run) == GX_OK;
     result.seconds = seconds_now() - before - measuring_seconds(&run);
     result.measured = *gx_measure_result(run.measure);
+    if (run.budget) result.budget = gx_budget_mean(run.budget);
     result.frequency = run.simulation.frequency;
     result.kh = 2 * M_PI * run.simulation.problem_options.mode / run.simulation.space_options.cells[0];
     result.vibration = gx_frequency_fit(&run.frequency, 1e-9 * fabs(run.simulation.problem_options.amplitude));
@@ -357,6 +393,7 @@ void gx_case_free(struct gx_result *result)
   free(result->history.probe);
   free(result->spectra.time);
   free(result->spectra.rms);
+  free(result->history.budget);
   result->history = (struct gx_history){0};
   result->spectra = (struct gx_spectra){0};
 }

@@ -387,6 +387,15 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                              .standard = "0",
                              .help = "run also with dt divided by this, and compare final states: the clock's error alone; 0: no",
                              .why = "it multiplies the cost"},
+    [GX_OUTPUT_BUDGET] = {.path = "output.budget",
+                          .type = GX_INTEGER,
+                          .unit = "steps",
+                          RANGE(1, 1e9),
+                          .applies = gx_rules_is_galerkin,
+                          .help =
+                              "split the error of a step from the exact state into its terms each so many steps, and keep the "
+                              "history; spaces with a grid",
+                          .why = "none: a step of the budget costs as much as tens of others"},
 };
 
 int gx_parameter_find(const char *path)

@@ -86,6 +86,15 @@ static void put_frequency(struct cursor *at, const struct gx_result *result)
   put_real(at, "result.frequency.kh", "", isfinite(ratio) ? result->kh : NAN);
 }
 
+static void put_budget(struct cursor *at, const char *prefix, const struct gx_budget_values *budget, bool valid)
+{
+  for (int i = 0; i < GX_BUDGET_ENTRIES; i++) {
+    char name[80];
+    snprintf(name, sizeof name, "%sbudget.%s", prefix, gx_budget_columns[i].name);
+    put_real(at, name, gx_budget_columns[i].unit, valid ? budget->value[i] : NAN);
+  }
+}
+
 static void put_case(struct cursor *at, const struct gx_case *one, const struct gx_result *result, bool timing)
 {
   enum gx_status status = result->outcome.status;
@@ -116,6 +125,7 @@ static void put_case(struct cursor *at, const struct gx_case *one, const struct 
   put_real(at, "result.probe.acceleration_change", "m/s^2", ok ? measured->probe_change : NAN);
   for (int q = 0; q < GX_QUANTITIES; q++) put_spectrum(at, result, (enum gx_quantity)q);
   put_frequency(at, result);
+  put_budget(at, "result.", &result->budget, ran);
   put_real(at, "result.stable_dt", "s", ran ? result->stable_dt : NAN);
   if (!timing) return;
   put_real(at, "result.seconds", "s", ran ? result->seconds : NAN);
@@ -194,27 +204,31 @@ struct gx_table *gx_study_table(const struct gx_study *study, const struct gx_re
 }
 
 static void put_row(struct cursor *at, const struct gx_history *history, const struct gx_sample *sample,
-                    const struct gx_probe *probe)
+                    const struct gx_probe *probe, const struct gx_budget_values *budget)
 {
   put_sample(at, sample);
   if (history->jumps) put_jumps(at, sample);
   if (history->probe) put_probe(at, history->dim, history->jumps, probe);
+  if (history->budget) put_budget(at, "", budget, true);
 }
 
 struct gx_table *gx_study_table_history(const struct gx_result *result)
 {
   static const struct gx_sample no_sample;
   static const struct gx_probe no_probe;
+  static const struct gx_budget_values no_budget;
   const struct gx_history *history = &result->history;
   struct cursor at = {0};
-  put_row(&at, history, &no_sample, &no_probe);
+  put_row(&at, history, &no_sample, &no_probe, &no_budget);
   at = (struct cursor){.table = gx_table_create(at.column, history->samples), .naming = true};
   if (!at.table) return NULL;
-  put_row(&at, history, &no_sample, &no_probe);
+  put_row(&at, history, &no_sample, &no_probe, &no_budget);
   at.naming = false;
   for (at.row = 0; at.row < history->samples; at.row++) {
     at.column = 0;
-    put_row(&at, history, &history->sample[at.row], history->probe ? &history->probe[at.row] : NULL);
+    size_t row = at.row;
+    put_row(&at, history, &history->sample[row], history->probe ? &history->probe[row] : NULL,
+            history->budget ? &history->budget[row] : NULL);
   }
   return finish(&at);
 }
