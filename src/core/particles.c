@@ -8,9 +8,8 @@
 
 #include <gsl/gsl_integration.h>
 
+#include "aligned.h"
 #include "tensor.h"
-
-enum { ALIGNMENT = 64 };
 
 /* Sets the component pointers to consecutive stretches of `stride` doubles from `at`; returns what follows them. */
 static double *place(double **component, int count, double *at, size_t stride)
@@ -36,15 +35,13 @@ static struct gx_particles *allocate(int dim, size_t n)
   if (stride < n || stride > SIZE_MAX / sizeof(double) / arrays) return NULL;
   struct gx_particles *particles = calloc(1, sizeof *particles);
   if (!particles) return NULL;
-  particles->block = aligned_alloc(ALIGNMENT, stride * arrays * sizeof(double));
-  if (!particles->block) {
+  double *at = gx_aligned_zeros(stride * arrays * sizeof(double), &particles->block);
+  if (!at) {
     free(particles);
     return NULL;
   }
-  memset(particles->block, 0, stride * arrays * sizeof(double));
   particles->dim = dim;
   particles->n = n;
-  double *at = particles->block;
   at = place(particles->X, dim, at, stride);
   at = place(particles->u, dim, at, stride);
   at = place(particles->v, dim, at, stride);
@@ -115,7 +112,7 @@ struct gx_particles *gx_particles_create(int dim, const int *cells, int per_cell
 struct gx_particles *gx_particles_copy(const struct gx_particles *particles)
 {
   struct gx_particles *copy = allocate(particles->dim, particles->n);
-  if (copy) memcpy(copy->block, particles->block, stride_of(copy->n) * arrays_of(copy->dim) * sizeof(double));
+  if (copy) memcpy(copy->X[0], particles->X[0], stride_of(copy->n) * arrays_of(copy->dim) * sizeof(double));
   return copy;
 }
 

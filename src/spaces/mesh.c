@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../core/aligned.h"
 #include "../core/kernel.h"
 #include "../core/vector.h"
 
@@ -82,15 +83,14 @@ enum gx_status gx_mesh_create(struct gx_mesh **out, size_t size, const struct gx
   }
   int dim = mesh->grid.dim;
   size_t bytes = place_arrays(mesh, NULL) * sizeof(double);
-  mesh->block = aligned_alloc(64, bytes);
+  double *arrays = gx_aligned_zeros(bytes, &mesh->block);
   mesh->first_block = calloc(particles->n * (size_t)dim + 1, sizeof(int));
   if (options->consistent) mesh->consistent = gx_mass_create(&mesh->grid);
   if (!mesh->block || !mesh->first_block || (options->consistent && !mesh->consistent)) {
     gx_mesh_free(&mesh->space);
     return gx_status_set(outcome, GX_FAILED, -1, "out of memory");
   }
-  memset(mesh->block, 0, bytes);
-  place_arrays(mesh, mesh->block);
+  place_arrays(mesh, arrays);
   mesh->weights.dim = dim;
   mesh->weights.support = mesh->grid.axis[0].support;
   mesh->weights.n = particles->n;
