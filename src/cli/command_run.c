@@ -99,6 +99,34 @@ static struct gx_table *summary(const struct gx_table *table, bool timing)
   return NULL;
 }
 
+/* "quadrature dominates, 10.9 times the next, time" */
+static void print_dominant(const struct gx_budget_values *budget, enum gx_budget_entry of, const char *what, const char *gap)
+{
+  enum gx_budget_entry next, largest = gx_budget_dominant(budget, of, &next);
+  if (largest == GX_BUDGET_ENTRIES) return;
+  printf("%sin %s %s dominates", gap, what, gx_sheet_leaf(gx_budget_columns[largest].name));
+  if (next == GX_BUDGET_ENTRIES) return;
+  printf(", %.3g times the next, %s", budget->value[largest] / budget->value[next], gx_sheet_leaf(gx_budget_columns[next].name));
+}
+
+/* One line a case: which term of the error of a step dominates, and by how much. */
+static void print_budgets(const struct gx_study *study, const struct gx_result *results)
+{
+  for (size_t i = 0; i < study->count; i++) {
+    enum gx_budget_entry next;
+    if (gx_budget_dominant(&results[i].budget, GX_BUDGET_VELOCITY_STEP, &next) == GX_BUDGET_ENTRIES) continue;
+    printf("error of a step");
+    for (size_t a = 0; a < study->axes; a++) {
+      const char *path = gx_parameters[study->axis[a]].path;
+      char text[GX_NUMBER_LENGTH];
+      printf(", %s %s", gx_sheet_leaf(path), gx_sheet_text(path, study->cases[i].value[study->axis[a]], text));
+    }
+    print_dominant(&results[i].budget, GX_BUDGET_VELOCITY_STEP, "velocity", ": ");
+    print_dominant(&results[i].budget, GX_BUDGET_DISPLACEMENT_STEP, "displacement", "; ");
+    putchar('\n');
+  }
+}
+
 static int print_table(const struct gx_options *options, const struct gx_study *study, const struct gx_result *results)
 {
   bool timing = !gx_options_value(options, "no-timing");
@@ -111,6 +139,7 @@ static int print_table(const struct gx_options *options, const struct gx_study *
   } else if (!failed) {
     brief = summary(table, timing);
     failed = !brief || gx_sheet_print(brief, stdout);
+    if (!failed) print_budgets(study, results);
   }
   gx_table_free(brief);
   gx_table_free(table);

@@ -244,13 +244,52 @@ static void symplectic_steps_keep_area(void **state)
   }
 }
 
+/* Kicks and drifts of a step each make up dt; the trapezoidal ones stand at its two ends. */
+static void stages_make_up_a_step(void **state)
+{
+  (void)state;
+  for (int k = 0; gx_clock_family[k]; k++)
+    for (int plain = 0; plain < 2; plain++) {
+      struct gx_clock_stage stage[GX_MAX_STAGES + 1];
+      int count = gx_clock_stages(gx_clock_family[k], plain, stage);
+      double kick = 0, drift = 0;
+      assert_in_range(count, 1, GX_MAX_STAGES + 1);
+      NEAR(stage[0].time, 0, 0);
+      for (int j = 0; j < count; j++) {
+        kick += stage[j].kick;
+        drift += stage[j].drift;
+      }
+      NEAR(kick, 1, 1e-14);
+      NEAR(drift, 1, 1e-14);
+    }
+  struct gx_clock_stage stage[GX_MAX_STAGES + 1];
+  static const struct {
+    const char *name;
+    bool plain;
+    int count;
+    struct gx_clock_stage stage[3];
+  } rows[] = {{"central-difference", false, 1, {{0, 1, 1, 1}}},
+              {"stormer-verlet", false, 2, {{0, 0.5, 0.5, 0}, {1, 0.5, 0.5, 1}}},
+              {"stormer-verlet", true, 2, {{0, 0.5, 1, 0.5}, {1, 0.5, 0, 0}}},
+              {"trgimp", false, 2, {{0, 0.5, 0.5, 0}, {1, 0.5, 0.5, 1}}},
+              {"rk4", false, 3, {{0, 1.0 / 6, 1.0 / 6, 0}, {0.5, 2.0 / 3, 2.0 / 3, 0.5}, {1, 1.0 / 6, 1.0 / 6, 1}}}};
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+    assert_int_equal(gx_clock_stages(gx_clock_find(rows[i].name), rows[i].plain, stage), rows[i].count);
+    for (int j = 0; j < rows[i].count; j++) {
+      NEAR(stage[j].time, rows[i].stage[j].time, 0);
+      NEAR(stage[j].kick, rows[i].stage[j].kick, 1e-15);
+      NEAR(stage[j].drift, rows[i].stage[j].drift, 1e-15);
+      if (stage[j].drift != 0) NEAR(stage[j].velocity_time, rows[i].stage[j].velocity_time, 1e-15);
+    }
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(splittings_have_their_order),
-      cmocka_unit_test(limits_of_stability),
-      cmocka_unit_test(orders_on_the_oscillator),
-      cmocka_unit_test(symplectic_steps_keep_area),
+      cmocka_unit_test(splittings_have_their_order), cmocka_unit_test(limits_of_stability),
+      cmocka_unit_test(orders_on_the_oscillator),    cmocka_unit_test(symplectic_steps_keep_area),
+      cmocka_unit_test(stages_make_up_a_step),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
