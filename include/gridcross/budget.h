@@ -39,6 +39,9 @@ enum gx_budget_entry {
   GX_BUDGET_DISPLACEMENT_LUMPING,
   GX_BUDGET_DISPLACEMENT_PROJECTION,
   GX_BUDGET_DISPLACEMENT_REST,
+  /* jump error of steffen2010 eqs 83-86, of particles that cross a cell edge; what a step that stopped there would differ by is none
+   * of the differences above, m */
+  GX_BUDGET_DISPLACEMENT_JUMP,
   /* largest magnitudes over the particles at the start of the step, berzins2022 eqs 62-64; nodal velocities are the best that
    * the grid can hold */
   GX_BUDGET_INF_ACCELERATION, /* a_p - sum S_ip a_i, m/s^2 */
@@ -73,6 +76,8 @@ struct gx_budget;
 enum gx_status gx_budget_create(struct gx_budget **budget, const struct gx_space *space, const struct gx_space_options *options,
                                 const struct gx_clock *clock, struct gx_outcome *outcome);
 void gx_budget_free(struct gx_budget *budget);
+/* Jump errors too: only for clocks that move particles once a step, through a fixed grid and by its velocity. */
+void gx_budget_jumps(struct gx_budget *budget);
 /* The step from t to t + dt. Fails, with GX_FAILED, for want of memory alone. */
 enum gx_status gx_budget_take(struct gx_budget *budget, double t, double dt, struct gx_budget_values *values);
 /* Over the steps taken so far: root mean squares, of inf.* the largest. */

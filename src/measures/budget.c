@@ -8,6 +8,7 @@
 
 #include "../core/tensor.h"
 #include "../core/vector.h"
+#include "jump.h"
 #include "truncation.h"
 
 const struct gx_budget_column gx_budget_columns[GX_BUDGET_ENTRIES] = {
@@ -27,6 +28,7 @@ const struct gx_budget_column gx_budget_columns[GX_BUDGET_ENTRIES] = {
     [GX_BUDGET_DISPLACEMENT_LUMPING] = {"displacement.lumping", "m"},
     [GX_BUDGET_DISPLACEMENT_PROJECTION] = {"displacement.projection", "m"},
     [GX_BUDGET_DISPLACEMENT_REST] = {"displacement.rest", "m"},
+    [GX_BUDGET_DISPLACEMENT_JUMP] = {"displacement.jump", "m"},
     [GX_BUDGET_INF_ACCELERATION] = {"inf.acceleration", "m/s^2"},
     [GX_BUDGET_INF_VELOCITY] = {"inf.velocity", "m/s"},
     [GX_BUDGET_INF_GRADIENT] = {"inf.gradient", "1/s"},
@@ -63,6 +65,7 @@ struct gx_budget {
   struct gx_truncation *truncation;
   int stages;
   struct gx_clock_stage stage[GX_MAX_STAGES + 1];
+  bool jumps; /* asked for */
   /* at particles, [n] */
   struct vector_field term[SUMS], exact, seen, before, moved, kicked;
   double *point[GX_MAX_DIM]; /* the exact field at the integral's points */
@@ -127,6 +130,11 @@ void gx_budget_free(struct gx_budget *budget)
   gx_particles_free(budget->particles);
   free(budget->block);
   free(budget);
+}
+
+void gx_budget_jumps(struct gx_budget *budget)
+{
+  budget->jumps = true;
 }
 
 /* The case at time t, from the exact state there and the exact velocity at t_velocity. */
@@ -289,8 +297,18 @@ static void take_velocity(struct gx_budget *budget, const struct gx_space *space
   value[GX_BUDGET_INF_GRADIENT] = largest(dim * dim, n, budget->gradient, budget->F);
 }
 
+static double rms_of_jumps(struct gx_jump *jump, double dt)
+{
+  const struct gx_particles *particles = jump->space->particles;
+  double sum = 0;
+  gx_jump_step(jump, dt);
+  for (int d = 0; d < particles->dim; d++)
+    for (size_t p = 0; p < particles->n; p++) sum += jump->sum[d][p] * jump->sum[d][p];
+  return sqrt(sum / (double)particles->n);
+}
+
 /* The step itself: kicked and moved <- the changes of velocity and displacement of the particles. */
-static enum gx_status take_step(struct gx_budget *budget, struct gx_space *space, double t, double dt)
+static enum gx_status take_step(struct gx_budget *budget, struct gx_space *space, double t, double dt, double *value)
 {
   struct gx_particles *particles = budget->particles;
   struct gx_stepper *stepper = gx_stepper_create(budget->clock, space, NULL);
@@ -300,7 +318,10 @@ static enum gx_status take_step(struct gx_budget *budget, struct gx_space *space
     memcpy(budget->kicked.component[d], particles->v[d], particles->n * sizeof(double));
     memcpy(budget->moved.component[d], particles->u[d], particles->n * sizeof(double));
   }
+  struct gx_jump *jump = budget->jumps ? gx_jump_create(space, budget->options.cells) : NULL;
   enum gx_status status = gx_stepper_step(stepper, t, dt);
+  if (jump && status == GX_OK) value[GX_BUDGET_DISPLACEMENT_JUMP] = rms_of_jumps(jump, dt);
+  gx_jump_free(jump);
   if (status == GX_OK && space->kind->settle) space->kind->settle(space);
   for (int d = 0; d < particles->dim; d++)
     for (size_t p = 0; p < particles->n; p++) {
@@ -400,7 +421,7 @@ enum gx_status gx_budget_take(struct gx_budget *budget, double t, double dt, str
     value[GX_BUDGET_L2_VELOCITY] = errors.velocity;
     value[GX_BUDGET_L2_INCREMENT] = errors.increment;
     value[GX_BUDGET_L2_TIME] = errors.time;
-    status = take_step(budget, start, t, dt);
+    status = take_step(budget, start, t, dt, value);
     close_particles(budget, t, begin, dt, value);
   }
   if (start) budget->kind->free(start);

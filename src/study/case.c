@@ -140,6 +140,7 @@ static enum gx_status prepare(struct run *run, const struct gx_case *one, double
     return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the jumps");
   if (run->budget_every > 0)
     GX_TRY(gx_budget_create(&run->budget, simulation->space, &simulation->space_options, simulation->clock, outcome));
+  if (run->budget && simulation->jumps) gx_budget_jumps(run->budget);
   if (run->history_every > 0 || run->budget_every > 0) GX_TRY(prepare_history(run));
   if (run->spectra_every > 0) GX_TRY(prepare_spectra(run));
   run->frequency.interval = run->frequency_every * simulation->dt;

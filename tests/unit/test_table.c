@@ -178,6 +178,7 @@ static const char *const result_columns[] = {
     "result.budget.displacement.lumping",
     "result.budget.displacement.projection",
     "result.budget.displacement.rest",
+    "result.budget.displacement.jump",
     "result.budget.inf.acceleration",
     "result.budget.inf.velocity",
     "result.budget.inf.gradient",
