@@ -38,7 +38,7 @@ static const char *cell_text(const struct layout *at, size_t row, size_t column,
   long here = at->pivot->cell[row * at->pivot->columns + column];
   size_t c = at->pivot->value[at->v];
   if (here < 0) return "";
-  if (!gx_pivot_ok(at->pivot, here) && table->column[c].type != GX_TEXT) c = (size_t)gx_table_find(table, "result.status");
+  if (!gx_pivot_ok(at->pivot, here, c) && table->column[c].type != GX_TEXT) c = (size_t)gx_table_find(table, "result.status");
   return gx_sheet_text(table->column[c].name, gx_table_get(table, (size_t)here, c), buffer);
 }
 

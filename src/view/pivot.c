@@ -272,10 +272,12 @@ const char *gx_pivot_label(const struct gx_pivot *pivot, size_t column, size_t r
   return text;
 }
 
-bool gx_pivot_ok(const struct gx_pivot *pivot, long table_row)
+bool gx_pivot_ok(const struct gx_pivot *pivot, long table_row, size_t column)
 {
+  static const char budget[] = "result.budget.";
   long c = gx_table_find(pivot->table, "result.status");
-  if (c < 0 || table_row < 0) return table_row >= 0;
+  bool measured = !strncmp(pivot->table->column[column].name, budget, sizeof budget - 1);
+  if (c < 0 || table_row < 0 || measured) return table_row >= 0;
   struct gx_value status = gx_table_get(pivot->table, (size_t)table_row, (size_t)c);
   return status.type != GX_TEXT || !strcmp(status.text, "ok");
 }
@@ -298,7 +300,8 @@ double gx_pivot_order(const struct gx_pivot *pivot, size_t v, size_t row, size_t
 {
   long here = pivot->cell[row * pivot->columns + column], above = -1;
   while (above < 0 && row > 0) above = pivot->cell[--row * pivot->columns + column];
-  if (!gx_pivot_ordered(pivot, v) || !gx_pivot_ok(pivot, here) || !gx_pivot_ok(pivot, above)) return NAN;
+  if (!gx_pivot_ordered(pivot, v) || !gx_pivot_ok(pivot, here, pivot->value[v]) || !gx_pivot_ok(pivot, above, pivot->value[v]))
+    return NAN;
   double e1 = gx_pivot_number(pivot, above, pivot->value[v]), e2 = gx_pivot_number(pivot, here, pivot->value[v]);
   double h1 = gx_pivot_number(pivot, above, pivot->row_axis), h2 = gx_pivot_number(pivot, here, pivot->row_axis);
   if (!(e1 > 0 && e2 > 0 && h1 > 0 && h2 > 0)) return NAN;

@@ -32,7 +32,7 @@ double gx_pivot_number(const struct gx_pivot *pivot, long table_row, size_t colu
 bool gx_pivot_ordered(const struct gx_pivot *pivot, size_t v);
 /* Observed order of values[v] between this row and the last one above that has such a case; NaN: none. */
 double gx_pivot_order(const struct gx_pivot *pivot, size_t v, size_t row, size_t column);
-/* Whether the case in this table row ended ok. */
-bool gx_pivot_ok(const struct gx_pivot *pivot, long table_row);
+/* Whether the case in this table row ended ok, or else the column is of the budget: that is taken before the step that may fail. */
+bool gx_pivot_ok(const struct gx_pivot *pivot, long table_row, size_t column);
 
 #endif

@@ -44,10 +44,10 @@ static void sketch_free(struct sketch *sketch)
 }
 
 /* Whether the entry may be drawn; if not, counts why. */
-static bool drawable(struct sketch *sketch, long table_row)
+static bool drawable(struct sketch *sketch, long table_row, size_t column)
 {
   const struct gx_table *table = sketch->pivot->table;
-  if (gx_pivot_ok(sketch->pivot, table_row)) return true;
+  if (gx_pivot_ok(sketch->pivot, table_row, column)) return true;
   struct gx_value status = gx_table_get(table, (size_t)table_row, (size_t)gx_table_find(table, "result.status"));
   for (int s = 0; s < GX_STATUSES; s++) sketch->ended[s] += !strcmp(status.text, gx_status_name(s));
   return false;
@@ -269,7 +269,7 @@ static int fill_lines(struct sketch *sketch, size_t x, size_t y)
     failed = begin_line(sketch, c, false, 0);
     for (size_t r = 0; r < pivot->rows && !failed; r++) {
       long at = pivot->cell[r * pivot->columns + c];
-      if (at < 0 || !drawable(sketch, at)) continue;
+      if (at < 0 || !drawable(sketch, at, y)) continue;
       if (isnan(gx_pivot_number(pivot, at, x)) || isnan(gx_pivot_number(pivot, at, y))) {
         sketch->empty++;
         continue;
@@ -367,9 +367,10 @@ static int read_curves(struct sketch *sketch, const struct gx_curves *kind, stru
 {
   const struct gx_pivot *pivot = sketch->pivot;
   const char *name = sketch->plot->y ? sketch->plot->y : kind->name;
+  long id = gx_table_find(pivot->table, "case");
   for (size_t i = 0; i < pivot->rows * pivot->columns; i++) {
     long at = pivot->cell[i];
-    if (at < 0 || gx_table_find(pivot->table, "case") < 0 || !drawable(sketch, at)) continue;
+    if (at < 0 || id < 0 || !drawable(sketch, at, (size_t)id)) continue;
     size_t row = (size_t)at, study = study_of(sketch->plot, &row);
     curve[i] = kind->read(sketch->plot, study, row, name, errors);
     if (!curve[i].table || !numeric(curve[i].table, 1, "--y", errors)) return -1;

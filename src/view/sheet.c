@@ -7,8 +7,8 @@
 
 bool gx_sheet_error_like(const char *column)
 {
-  static const char *const prefix[] = {"result.displacement.", "result.velocity.", "result.stress.", "result.energy.",
-                                       "result.frequency.error"};
+  static const char *const prefix[] = {"result.displacement.", "result.velocity.",       "result.stress.",
+                                       "result.energy.",       "result.frequency.error", "result.budget."};
   for (size_t i = 0; i < sizeof prefix / sizeof *prefix; i++)
     if (!strncmp(column, prefix[i], strlen(prefix[i]))) return true;
   return false;

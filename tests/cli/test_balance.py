@@ -85,6 +85,18 @@ class Balance(unittest.TestCase):
         (file.parent / "plain.yaml").write_text(file.read_text().replace("output: {budget: 20}\n", ""))
         self.assertNotIn("error of a step", self.call("run", "plain.yaml", "-q").stdout)
 
+    def test_budgets_outlive_a_step_that_fails(self):
+        """The budget of a step is taken before the run takes it: compare shows it where the case itself tangled."""
+        file = pathlib.Path(self.place.name) / "bar.yaml"
+        file.write_text("problem: {name: bar-neo-hookean}\nmesh: {cells: [512, 1024]}\nmethod: {basis: linear}\n"
+                        "time: {dt: 1e-4, steps: 1, start: 2.122e-3}\noutput: {budget: 1}\n")
+        self.assertIn("tangled", self.call("run", file, "-q").stdout)
+        out = self.call("compare", "bar.study", "--value", "result.budget.l2.projected").stdout
+        self.assertNotIn("tangled", out)
+        self.assertIn("5.91e-2", out)
+        self.assertIn("1.2", out)  # the order
+        self.assertIn("tangled", self.call("compare", "bar.study", "--value", "result.displacement.final.rms").stdout)
+
     def test_budgets_are_in_histories(self):
         file = pathlib.Path(self.place.name) / "bar.yaml"
         file.write_text("problem: {name: bar-linear, modulus: 16}\nmesh: {cells: 20}\ntime: {dt: 1e-3, steps: 7}\n"
