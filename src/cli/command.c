@@ -59,16 +59,19 @@ void gx_command_studies_free(struct gx_command_studies *studies)
   free(studies->name);
 }
 
+size_t gx_command_count(const struct gx_options *options, const char *name)
+{
+  const char *given = gx_options_value(options, name);
+  char *end;
+  long count = strtol(given, &end, 10);
+  if (end != given && !*end && count >= 1 && count <= 4096) return (size_t)count;
+  fprintf(stderr, "gridcross %s: --%s takes a number from 1 to 4096, not '%s'\n", options->command->name, name, given);
+  return 0;
+}
+
 size_t gx_command_jobs(const struct gx_options *options)
 {
-  const char *given = gx_options_value(options, "jobs");
-  char *end;
-  if (!given) {
-    long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    return processors > 0 ? (size_t)processors : 1;
-  }
-  long jobs = strtol(given, &end, 10);
-  if (end != given && !*end && jobs >= 1 && jobs <= 4096) return (size_t)jobs;
-  fprintf(stderr, "gridcross %s: -j takes a number from 1 to 4096, not '%s'\n", options->command->name, given);
-  return 0;
+  if (gx_options_value(options, "jobs")) return gx_command_count(options, "jobs");
+  long processors = sysconf(_SC_NPROCESSORS_ONLN);
+  return processors > 0 ? (size_t)processors : 1;
 }

@@ -33,6 +33,8 @@ void gx_command_studies_free(struct gx_command_studies *studies);
 /* The plot command with values that a paper prints; the exit code. */
 int gx_command_plot_figure(const struct gx_options *options, size_t points, const struct gx_plot_point *point);
 
+/* What an option asks for that was given, from 1 to 4096, or 0 after a message. */
+size_t gx_command_count(const struct gx_options *options, const char *name);
 /* Threads that --jobs asks for, or 0 after a message. */
 size_t gx_command_jobs(const struct gx_options *options);
 

@@ -220,6 +220,7 @@ static void a_study_is_stored_and_read_with_its_timing(void **state)
   char directory[128];
   snprintf(directory, sizeof directory, "%s/new/study", f->directory);
   struct gx_store_run run = {.command = "gridcross run 'a b'", .seconds = 2};
+  f->study.repeats = 3;
   for (int twice = 0; twice < 2; twice++) {
     assert_int_equal(gx_store_prepare(directory, stderr), 0);
     assert_int_equal(gx_store_write(directory, &f->study, f->results, &run, stderr), 0);
@@ -234,8 +235,20 @@ static void a_study_is_stored_and_read_with_its_timing(void **state)
   size_t length;
   snprintf(path, sizeof path, "%s/timing.csv", directory);
   char *bytes = contents(path, &length);
-  assert_string_equal(bytes, "case,seconds,ns_per_particle_step\n0123456789abcdef,1.5,20.25\nfedcba9876543210,0,0\n");
+  assert_string_equal(bytes, "case,seconds,ns_per_particle_step,repeats\n0123456789abcdef,1.5,20.25,3\nfedcba9876543210,0,0,3\n");
   free(bytes);
+  assert_int_equal(gx_store_read_repeats(directory), 3);
+  /* written by others: a time that is none, and a row of fewer repeats */
+  const char foreign[] = "case,seconds,ns_per_particle_step,repeats\n0123456789abcdef,nan,20.25,3\nfedcba9876543210,2,3,2\n";
+  put(path, foreign, sizeof foreign - 1);
+  table = gx_store_read(directory, stderr);
+  long seconds = gx_table_find(table, "result.seconds");
+  assert_int_equal(gx_table_get(table, 0, (size_t)seconds).type, GX_NULL);
+  NEAR(gx_table_get(table, 1, (size_t)seconds).real, 2, 0);
+  gx_table_free(table);
+  assert_int_equal(gx_store_read_repeats(directory), 2);
+  unlink(path);
+  assert_int_equal(gx_store_read_repeats(directory), 0);
   snprintf(path, sizeof path, "%s/run.json", directory);
   bytes = contents(path, &length);
   assert_non_null(strstr(bytes, "\"command\": \"gridcross run 'a b'\", \"seconds\": 2}"));
