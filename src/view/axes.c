@@ -11,6 +11,13 @@ bool gx_axes_parameter(const struct gx_table *table, size_t column)
   return strcmp(name, "case") != 0 && strncmp(name, "result.", 7) != 0;
 }
 
+bool gx_axes_vary(const struct gx_table *table, size_t column)
+{
+  for (size_t r = 1; r < table->rows; r++)
+    if (gx_value_compare(gx_table_get(table, 0, column), gx_table_get(table, r, column))) return true;
+  return false;
+}
+
 struct entry {
   struct gx_value value;
   size_t row, first; /* first: row where this value appears first */

@@ -9,6 +9,8 @@
 
 /* Columns other than case and result.* */
 bool gx_axes_parameter(const struct gx_table *table, size_t column);
+/* Whether rows differ there. */
+bool gx_axes_vary(const struct gx_table *table, size_t column);
 /* rank: [rows], of each row's value among the distinct values: numbers ascending, texts as they first appear.
  * Returns how many are distinct, or -1 when memory runs out. */
 long gx_axes_rank(const struct gx_table *table, size_t column, size_t *rank);

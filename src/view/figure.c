@@ -120,8 +120,7 @@ enum gx_plot_status gx_figure_draw(const struct gx_figure *figure, const char *o
 
 double gx_figure_number(const struct gx_figure *figure, size_t row, size_t column)
 {
-  struct gx_value value = gx_table_get(figure->data, row, column);
-  return value.type == GX_REAL ? value.real : value.type == GX_INTEGER ? (double)value.integer : NAN;
+  return gx_value_number(gx_table_get(figure->data, row, column));
 }
 
 void gx_figure_free(struct gx_figure *figure)
