@@ -9,7 +9,7 @@
 #include "options.h"
 
 extern const struct gx_command gx_command_run, gx_command_check, gx_command_init, gx_command_compare, gx_command_plot,
-    gx_command_list, gx_command_paper;
+    gx_command_advise, gx_command_list, gx_command_paper;
 
 #define GX_COMMAND_SET                                                                                                           \
   {                                                                                                                              \

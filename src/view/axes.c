@@ -56,6 +56,15 @@ long gx_axes_rank(const struct gx_table *table, size_t column, size_t *rank)
   return distinct;
 }
 
+long gx_axes_values(const struct gx_table *table, size_t column, size_t *first)
+{
+  size_t *rank = calloc(table->rows + 1, sizeof *rank);
+  long distinct = rank ? gx_axes_rank(table, column, rank) : -1;
+  for (size_t r = table->rows; r-- > 0 && distinct >= 0;) first[rank[r]] = r;
+  free(rank);
+  return distinct;
+}
+
 struct pair {
   size_t group, rank, row;
 };

@@ -7,11 +7,11 @@
 #include <string.h>
 
 #include <gridcross/compare.h>
-#include <gridcross/status.h>
 #include <gridcross/store.h>
 
 #include "axes.h"
 #include "figure.h"
+#include "left_out.h"
 #include "pivot.h"
 #include "sheet.h"
 
@@ -21,10 +21,9 @@ struct sketch {
   const struct gx_plot *plot;
   struct gx_pivot *pivot;
   struct gx_figure figure;
-  size_t point;              /* rows of figure.data in use */
-  size_t ended[GX_STATUSES]; /* cases left out, by how they ended */
-  size_t empty;              /* cases left out: no number */
-  size_t *colour, *style;    /* [pivot->columns], owned */
+  size_t point; /* rows of figure.data in use */
+  struct gx_left_out left_out;
+  size_t *colour, *style; /* [pivot->columns], owned */
   size_t styles;
 };
 
@@ -40,31 +39,6 @@ static void sketch_free(struct sketch *sketch)
   gx_pivot_free(sketch->pivot);
   free(sketch->colour);
   free(sketch->style);
-}
-
-/* Whether the entry may be drawn; if not, counts why. */
-static bool drawable(struct sketch *sketch, long table_row)
-{
-  const struct gx_table *table = sketch->pivot->table;
-  if (gx_pivot_ok(sketch->pivot, table_row)) return true;
-  struct gx_value status = gx_table_get(table, (size_t)table_row, (size_t)gx_table_find(table, "result.status"));
-  for (int s = 0; s < GX_STATUSES; s++) sketch->ended[s] += !strcmp(status.text, gx_status_name(s));
-  return false;
-}
-
-static void tell_left_out(const struct sketch *sketch, FILE *errors)
-{
-  size_t count = 0;
-  const char *gap = "";
-  for (int s = 0; s < GX_STATUSES; s++) count += sketch->ended[s];
-  if (count) fprintf(errors, "note: %zu case%s left out: ", count, count == 1 ? " is" : "s are");
-  for (int s = 0; s < GX_STATUSES; s++) {
-    if (!sketch->ended[s]) continue;
-    fprintf(errors, "%s%zu %s", gap, sketch->ended[s], gx_status_name(s));
-    gap = ", ";
-  }
-  if (count) putc('\n', errors);
-  if (sketch->empty) fprintf(errors, "note: %zu case%s no value there\n", sketch->empty, sketch->empty == 1 ? " has" : "s have");
 }
 
 /* Labels of the pivot's column, and of the row where that tells cases apart. */
@@ -267,9 +241,9 @@ static int fill_lines(struct sketch *sketch, size_t x, size_t y)
     failed = begin_line(sketch, c, false, 0);
     for (size_t r = 0; r < pivot->rows && !failed; r++) {
       long at = pivot->cell[r * pivot->columns + c];
-      if (at < 0 || !drawable(sketch, at)) continue;
+      if (at < 0 || !gx_left_out_try(&sketch->left_out, pivot->table, (size_t)at)) continue;
       if (isnan(gx_pivot_number(pivot, at, x)) || isnan(gx_pivot_number(pivot, at, y))) {
-        sketch->empty++;
+        sketch->left_out.empty++;
         continue;
       }
       failed = add_point(sketch, gx_table_get(pivot->table, (size_t)at, x), gx_table_get(pivot->table, (size_t)at, y));
@@ -286,7 +260,7 @@ static int fill_lines(struct sketch *sketch, size_t x, size_t y)
 
 static enum gx_plot_status draw(struct sketch *sketch, FILE *errors)
 {
-  tell_left_out(sketch, errors);
+  gx_left_out_tell(&sketch->left_out, errors);
   if (sketch->figure.lines) return gx_figure_draw(&sketch->figure, sketch->plot->output, errors);
   fputs("gridcross: there is nothing to draw\n", errors);
   return GX_PLOT_REFUSED;
@@ -367,7 +341,7 @@ static int read_histories(struct sketch *sketch, const char *name, struct gx_tab
   long id = gx_table_find(pivot->table, "case");
   for (size_t i = 0; i < pivot->rows * pivot->columns; i++) {
     long at = pivot->cell[i];
-    if (at < 0 || id < 0 || !drawable(sketch, at)) continue;
+    if (at < 0 || id < 0 || !gx_left_out_try(&sketch->left_out, pivot->table, (size_t)at)) continue;
     size_t s = study_of(sketch->plot, (size_t)at);
     history[i] =
         gx_store_read_history(sketch->plot->directory[s], gx_table_get(pivot->table, (size_t)at, (size_t)id).text, name, errors);
@@ -396,7 +370,7 @@ static int fill_history(struct sketch *sketch, struct gx_table *const *history)
       for (size_t k = 0; k < one->rows && !failed; k++)
         if (gx_table_get(one, k, 1).type != GX_NULL) failed = add_point(sketch, gx_table_get(one, k, 0), gx_table_get(one, k, 1));
       if (failed) continue;
-      sketch->empty += !sketch->figure.line[sketch->figure.lines - 1].count;
+      sketch->left_out.empty += !sketch->figure.line[sketch->figure.lines - 1].count;
       drop_empty_line(sketch);
     }
   if (any && !failed) sketch->figure.data->rows = sketch->point;

@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Pareto front by one pass over the cases in order of cost. */
+#include "front.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "axes.h"
+#include "join.h"
+
+struct entry {
+  double cost, error;
+  size_t row;
+};
+
+static int by_cost(const void *left, const void *right)
+{
+  const struct entry *a = left, *b = right;
+  if (a->cost != b->cost) return a->cost < b->cost ? -1 : 1;
+  if (a->error != b->error) return a->error < b->error ? -1 : 1;
+  return (a->row > b->row) - (a->row < b->row);
+}
+
+double gx_front_error(const struct gx_front *front, size_t row)
+{
+  return gx_value_number(gx_table_get(front->table, row, front->error));
+}
+
+double gx_front_cost(const struct gx_front *front, size_t row)
+{
+  return gx_value_number(gx_table_get(front->table, row, front->cost));
+}
+
+/* An easier problem or a shorter time would always be the cheaper one. */
+static int check_problem(const struct gx_table *table, FILE *errors)
+{
+  for (size_t c = 0; c < table->columns; c++) {
+    const char *name = table->column[c].name;
+    bool poses = !strncmp(name, "problem.", 8) || !strcmp(name, "time.end") || !strcmp(name, "time.periods");
+    if (!poses || !gx_axes_vary(table, c)) continue;
+    fprintf(errors, "gridcross: %s varies, and costs compare on one problem alone: choose one by --where %s=VALUE\n", name, name);
+    return -1;
+  }
+  return 0;
+}
+
+static int find_columns(struct gx_front *front, const char *error, FILE *errors)
+{
+  long e = gx_join_find(front->table, error, false, errors), cost = gx_table_find(front->table, "result.seconds");
+  if (e < 0) return -1;
+  if (front->table->column[e].type == GX_TEXT) {
+    fprintf(errors, "gridcross: %s is not a number: name another --value\n", error);
+    return -1;
+  }
+  if (cost < 0) {
+    fputs("gridcross: there is no column result.seconds\n", errors);
+    return -1;
+  }
+  front->error = (size_t)e;
+  front->cost = (size_t)cost;
+  return 0;
+}
+
+double gx_front_share(const struct gx_front *front, size_t row)
+{
+  long dt = gx_table_find(front->table, "result.dt"), stable = gx_table_find(front->table, "result.stable_dt");
+  if (dt < 0 || stable < 0) return NAN;
+  return gx_value_number(gx_table_get(front->table, row, (size_t)dt)) /
+         gx_value_number(gx_table_get(front->table, row, (size_t)stable));
+}
+
+/* Rows that count, or those of steps above the stable one, in order of cost; row: [rows]. entry: [rows] of scratch. */
+static size_t sort(struct gx_front *front, bool above, struct entry *entry, size_t *row)
+{
+  size_t count = 0;
+  for (size_t r = 0; r < front->table->rows; r++) {
+    struct gx_left_out ignored = {0};
+    double error = gx_front_error(front, r), cost = gx_front_cost(front, r);
+    if (!gx_left_out_try(above ? &ignored : &front->left_out, front->table, r)) continue;
+    if (!above) {
+      front->left_out.empty += isnan(error);
+      front->untimed += !isnan(error) && !(cost > 0);
+    }
+    if (isnan(error) || !(cost > 0) || (gx_front_share(front, r) > 1) != above) continue;
+    entry[count++] = (struct entry){.cost = cost, .error = error, .row = r};
+  }
+  qsort(entry, count, sizeof *entry, by_cost);
+  for (size_t i = 0; i < count; i++) row[i] = entry[i].row;
+  return count;
+}
+
+static void find_members(struct gx_front *front)
+{
+  double best = INFINITY;
+  for (size_t i = 0; i < front->cases; i++) {
+    double error = gx_front_error(front, front->row[i]);
+    if (error >= best) continue;
+    best = error;
+    front->member[front->members++] = front->row[i];
+  }
+}
+
+int gx_front_find(struct gx_front *front, const struct gx_table *table, const char *error, FILE *errors)
+{
+  *front = (struct gx_front){.table = table};
+  if (check_problem(table, errors) || find_columns(front, error, errors)) return -1;
+  front->row = calloc(table->rows + 1, sizeof *front->row);
+  front->member = calloc(table->rows + 1, sizeof *front->member);
+  front->above_row = calloc(table->rows + 1, sizeof *front->above_row);
+  struct entry *entry = calloc(table->rows + 1, sizeof *entry);
+  if (!front->row || !front->member || !front->above_row || !entry) {
+    fputs("gridcross: out of memory\n", errors);
+    free(entry);
+    return -1;
+  }
+  front->cases = sort(front, false, entry, front->row);
+  front->above = sort(front, true, entry, front->above_row);
+  free(entry);
+  find_members(front);
+  if (front->cases || front->above) return 0;
+  if (front->untimed)
+    fputs("gridcross: no case has a time, so there are no costs: is timing.csv still beside study.h5? If not, run again\n",
+          errors);
+  else if (front->left_out.empty)
+    fprintf(errors, "gridcross: no case has %s: name another --value, or run again with output.measures: all\n", error);
+  else
+    return 0;
+  return -1;
+}
+
+void gx_front_free(struct gx_front *front)
+{
+  free(front->row);
+  free(front->member);
+  free(front->above_row);
+}
+
+long gx_front_pick(const struct gx_front *front, double bound)
+{
+  for (size_t i = 0; i < front->members; i++)
+    if (gx_front_error(front, front->member[i]) <= bound) return (long)front->member[i];
+  return -1;
+}
+
+void gx_front_tell(const struct gx_front *front, FILE *errors)
+{
+  gx_left_out_tell(&front->left_out, errors);
+  if (front->above)
+    fprintf(errors, "note: %zu case%s left out: dt is above the stable step\n", front->above,
+            front->above == 1 ? " is" : "s are");
+  if (front->untimed) fprintf(errors, "note: %zu case%s no time\n", front->untimed, front->untimed == 1 ? " has" : "s have");
+}
