@@ -8,6 +8,8 @@
 
 #include <gridcross/store.h>
 
+#include "where.h"
+
 int gx_command_no_memory(void)
 {
   fputs("gridcross: out of memory\n", stderr);
@@ -46,7 +48,7 @@ int gx_command_studies_read(struct gx_command_studies *studies, const struct gx_
     if (!(studies->name[s] = study_name(options->operand[s]))) return gx_command_no_memory();
     if (!(studies->table[s] = gx_store_read(options->operand[s], stderr))) return GX_EXIT_USAGE;
   }
-  return GX_EXIT_DONE;
+  return gx_where_keep(studies, options);
 }
 
 void gx_command_studies_free(struct gx_command_studies *studies)

@@ -16,6 +16,11 @@ extern const struct gx_command gx_command_run, gx_command_check, gx_command_init
     0, "set", "PATH=VALUE", "replace a parameter of the run file; as often as wanted"                                            \
   }
 
+#define GX_COMMAND_WHERE                                                                                                         \
+  {                                                                                                                              \
+    0, "where", "PATH=VALUE", "only cases with this value; as often as wanted"                                                   \
+  }
+
 /* Reads the run file that the first operand names with its --set. NULL after messages. */
 struct gx_study *gx_command_read(const struct gx_options *options);
 
@@ -26,7 +31,7 @@ struct gx_command_studies {
   char **name;             /* [count], owned: as the axis `study` shows them */
 };
 
-/* Returns 0, or an exit code after a message; to be freed in either case. */
+/* Reads them and keeps the cases that --where names. Returns 0, or an exit code after a message; to be freed in either case. */
 int gx_command_studies_read(struct gx_command_studies *studies, const struct gx_options *options, size_t count);
 void gx_command_studies_free(struct gx_command_studies *studies);
 

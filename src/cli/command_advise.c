@@ -15,6 +15,7 @@ static const struct gx_option option[] = {
     {0, "csv", NULL, "print the front as CSV, with reasons and the run file of each case"},
     {0, "json", NULL, "the same as JSON"},
     {0, "yaml", NULL, "print the cheapest cases as a run file, to run them again"},
+    GX_COMMAND_WHERE,
     {0},
 };
 

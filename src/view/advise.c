@@ -36,29 +36,17 @@ static void ground_free(struct ground *ground)
   free(ground->axis);
 }
 
-/* Two studies of one name could not be told apart, and most likely are one. */
-static int check_names(const struct gx_advice *advice, FILE *errors)
-{
-  for (size_t s = 0; s < advice->studies; s++)
-    for (size_t before = 0; before < s; before++) {
-      if (strcmp(advice->name[s], advice->name[before])) continue;
-      fprintf(errors, "gridcross: two studies are called %s: was one named twice?\n", advice->name[s]);
-      return -1;
-    }
-  return 0;
-}
-
 static int ground_find(struct ground *ground, const struct gx_advice *advice, FILE *errors)
 {
   *ground = (struct ground){.advice = advice};
-  if (check_names(advice, errors)) return -1;
+  if (gx_join_check(advice->studies, advice->name, errors)) return -1;
   ground->table = gx_join_tables(advice->studies, advice->table, advice->name);
   ground->axis = ground->table ? calloc(ground->table->columns + 1, sizeof *ground->axis) : NULL;
   long axes = ground->axis ? gx_axes_find(ground->table, 0, ground->axis) : -1;
   if (axes < 0) return no_memory(errors);
   ground->axes = (size_t)axes;
   const char *value = advice->value ? advice->value : "result.displacement.max.rms";
-  if (gx_front_find(&ground->front, ground->table, value, errors)) return -1;
+  if (gx_front_find(&ground->front, ground->table, value, "result.seconds", errors)) return -1;
   gx_front_tell(&ground->front, errors);
   return 0;
 }

@@ -45,21 +45,13 @@ static int check_problem(const struct gx_table *table, FILE *errors)
   return 0;
 }
 
-static int find_columns(struct gx_front *front, const char *error, FILE *errors)
+/* A column of numbers, or -1 after a message. */
+static long find_number(const struct gx_table *table, const char *name, FILE *errors)
 {
-  long e = gx_join_find(front->table, error, false, errors), cost = gx_table_find(front->table, "result.seconds");
-  if (e < 0) return -1;
-  if (front->table->column[e].type == GX_TEXT) {
-    fprintf(errors, "gridcross: %s is not a number: name another --value\n", error);
-    return -1;
-  }
-  if (cost < 0) {
-    fputs("gridcross: there is no column result.seconds\n", errors);
-    return -1;
-  }
-  front->error = (size_t)e;
-  front->cost = (size_t)cost;
-  return 0;
+  long c = gx_join_find(table, name, false, errors);
+  if (c < 0 || table->column[c].type != GX_TEXT) return c;
+  fprintf(errors, "gridcross: %s is not a number\n", name);
+  return -1;
 }
 
 double gx_front_share(const struct gx_front *front, size_t row)
@@ -101,10 +93,14 @@ static void find_members(struct gx_front *front)
   }
 }
 
-int gx_front_find(struct gx_front *front, const struct gx_table *table, const char *error, FILE *errors)
+int gx_front_find(struct gx_front *front, const struct gx_table *table, const char *error, const char *cost, FILE *errors)
 {
   *front = (struct gx_front){.table = table};
-  if (check_problem(table, errors) || find_columns(front, error, errors)) return -1;
+  long e = check_problem(table, errors) ? -1 : find_number(table, error, errors),
+       c = e < 0 ? -1 : find_number(table, cost, errors);
+  if (c < 0) return -1;
+  front->error = (size_t)e;
+  front->cost = (size_t)c;
   front->row = calloc(table->rows + 1, sizeof *front->row);
   front->member = calloc(table->rows + 1, sizeof *front->member);
   front->above_row = calloc(table->rows + 1, sizeof *front->above_row);
@@ -120,10 +116,9 @@ int gx_front_find(struct gx_front *front, const struct gx_table *table, const ch
   find_members(front);
   if (front->cases || front->above) return 0;
   if (front->untimed)
-    fputs("gridcross: no case has a time, so there are no costs: is timing.csv still beside study.h5? If not, run again\n",
-          errors);
+    fprintf(errors, "gridcross: no case has %s: is timing.csv still beside study.h5? If not, run again\n", cost);
   else if (front->left_out.empty)
-    fprintf(errors, "gridcross: no case has %s: name another --value, or run again with output.measures: all\n", error);
+    fprintf(errors, "gridcross: no case has %s: name another, or run again with output.measures: all\n", error);
   else
     return 0;
   return -1;
@@ -149,5 +144,5 @@ void gx_front_tell(const struct gx_front *front, FILE *errors)
   if (front->above)
     fprintf(errors, "note: %zu case%s left out: dt is above the stable step\n", front->above,
             front->above == 1 ? " is" : "s are");
-  if (front->untimed) fprintf(errors, "note: %zu case%s no time\n", front->untimed, front->untimed == 1 ? " has" : "s have");
+  if (front->untimed) fprintf(errors, "note: %zu case%s no cost\n", front->untimed, front->untimed == 1 ? " has" : "s have");
 }

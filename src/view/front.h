@@ -19,8 +19,8 @@ struct gx_front {
   size_t untimed;               /* no cost */
 };
 
-/* error: name of a column; the cost is result.seconds. Returns 0, or -1 after a message; to be freed in either case. */
-int gx_front_find(struct gx_front *front, const struct gx_table *table, const char *error, FILE *errors);
+/* error, cost: names of columns. Returns 0, or -1 after a message; to be freed in either case. */
+int gx_front_find(struct gx_front *front, const struct gx_table *table, const char *error, const char *cost, FILE *errors);
 void gx_front_free(struct gx_front *front);
 double gx_front_error(const struct gx_front *front, size_t row);
 double gx_front_cost(const struct gx_front *front, size_t row);

@@ -7,6 +7,17 @@
 #include "../core/nearest.h"
 #include "axes.h"
 
+int gx_join_check(size_t studies, const char *const *name, FILE *errors)
+{
+  for (size_t s = 0; s < studies; s++)
+    for (size_t before = 0; before < s; before++) {
+      if (strcmp(name[s], name[before])) continue;
+      fprintf(errors, "gridcross: two studies are called %s: was one named twice?\n", name[s]);
+      return -1;
+    }
+  return 0;
+}
+
 static size_t count_columns(size_t studies, const struct gx_table *const *table)
 {
   size_t count = 0;

@@ -8,6 +8,8 @@
 
 #include <gridcross/table.h>
 
+/* Two studies of one name could not be told apart, and most likely are one. Returns 0, or -1 after a message. */
+int gx_join_check(size_t studies, const char *const *name, FILE *errors);
 /* Columns of every study by name, in the order of the first that has them, then `study`: the last, so that it is an axis only
  * where parameters do not tell two cases apart. NULL when memory runs out. */
 struct gx_table *gx_join_tables(size_t studies, const struct gx_table *const *table, const char *const *name);

@@ -177,20 +177,6 @@ void gx_pivot_free(struct gx_pivot *pivot)
   free(pivot);
 }
 
-const char *gx_pivot_label(const struct gx_pivot *pivot, size_t column, size_t row, char text[GX_PIVOT_LABEL])
-{
-  char buffer[GX_NUMBER_LENGTH];
-  const char *name = pivot->table->column[column].name;
-  struct gx_value value = gx_table_get(pivot->table, row, column);
-  if (value.type == GX_NULL)
-    text[0] = '\0';
-  else if (value.type == GX_TEXT)
-    snprintf(text, GX_PIVOT_LABEL, "%s", value.text);
-  else
-    snprintf(text, GX_PIVOT_LABEL, "%s %s", gx_sheet_leaf(name), gx_sheet_text(name, value, buffer));
-  return text;
-}
-
 bool gx_pivot_ok(const struct gx_pivot *pivot, long table_row)
 {
   long c = gx_table_find(pivot->table, "result.status");
