@@ -182,9 +182,9 @@ int gx_advise_print(const struct gx_advice *advice, FILE *out, FILE *errors)
   struct gx_table *sheet = failed ? NULL : front_sheet(&ground);
   if (!failed && !sheet) failed = no_memory(errors);
   if (!failed) {
-    fprintf(out, "front: %zu of %zu cases; x: cost of the cheapest case of each space with no greater error\n\n",
-            ground.front.members, ground.table->rows);
-    failed = gx_sheet_print(sheet, out);
+    fprintf(out, "front: %zu of %zu cases%s\n", ground.front.members, ground.table->rows,
+            sheet->columns > ground.axes + 3 ? "; x: times its cost, the cheapest case of each space with no greater error" : "");
+    if (ground.front.members) failed = putc('\n', out) == EOF || gx_sheet_print(sheet, out);
     for (size_t b = 0; b < advice->bounds && !failed; b++) failed = print_pick(&ground, advice->bound[b], out);
     if (failed) no_memory(errors);
   }
