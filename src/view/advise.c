@@ -156,8 +156,7 @@ static int print_pick(const struct ground *ground, double bound, FILE *out)
 {
   const struct gx_front *front = &ground->front;
   char number[GX_NUMBER_LENGTH], error[GX_NUMBER_LENGTH], seconds[GX_NUMBER_LENGTH];
-  gx_value_real(bound, number);
-  fprintf(out, "\nerror at most %s: ", number);
+  fprintf(out, "\nerror at most %s: ", gx_sheet_text("", real(bound), number));
   if (!front->members) {
     fputs("no case\n", out);
     return 0;
@@ -202,8 +201,7 @@ static int put_picked(struct gx_table *table, size_t i, size_t column, const str
   if (!out) return -1;
   for (size_t b = 0; b < ground->advice->bounds; b++) {
     if (gx_front_pick(&ground->front, ground->advice->bound[b]) != (long)ground->front.member[i]) continue;
-    gx_value_real(ground->advice->bound[b], number);
-    fprintf(out, "%s%s", count++ ? " " : "", number);
+    fprintf(out, "%s%s", count++ ? " " : "", gx_sheet_text("", real(ground->advice->bound[b]), number));
   }
   int failed = ferror(out) | fclose(out);
   if (!failed && count) failed = gx_table_set(table, i, column, (struct gx_value){.type = GX_TEXT, .text = text});

@@ -35,14 +35,22 @@ double gx_front_cost(const struct gx_front *front, size_t row)
 /* An easier problem or a shorter time would always be the cheaper one. */
 static int check_problem(const struct gx_table *table, FILE *errors)
 {
+  static const char *const times[] = {"time.start", "time.end", "time.periods", "time.steps"};
   for (size_t c = 0; c < table->columns; c++) {
     const char *name = table->column[c].name;
-    bool poses = !strncmp(name, "problem.", 8) || !strcmp(name, "time.end") || !strcmp(name, "time.periods");
+    bool poses = !strncmp(name, "problem.", 8);
+    for (size_t t = 0; t < sizeof times / sizeof *times; t++) poses = poses || !strcmp(name, times[t]);
     if (!poses || !gx_axes_vary(table, c)) continue;
     fprintf(errors, "gridcross: %s varies, and costs compare on one problem alone: choose one by --where %s=VALUE\n", name, name);
     return -1;
   }
-  return 0;
+  long steps = gx_table_find(table, "time.steps"), dt = gx_table_find(table, "result.dt");
+  if (steps < 0 || dt < 0 || !table->rows || gx_table_get(table, 0, (size_t)steps).type == GX_NULL) return 0;
+  if (!gx_axes_vary(table, (size_t)dt)) return 0;
+  fputs("gridcross: cases of as many steps of different lengths end at different times, and costs compare on one alone: "
+        "set time.end in place of time.steps\n",
+        errors);
+  return -1;
 }
 
 /* A column of numbers, or -1 after a message. */
