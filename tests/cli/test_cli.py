@@ -13,7 +13,7 @@ import tempfile
 import unittest
 
 PROGRAM, ROOT = (pathlib.Path(a).resolve() for a in sys.argv[1:3])
-COMMANDS = ["run", "check", "init", "compare", "plot", "list"]
+COMMANDS = ["run", "check", "init", "compare", "plot", "advise", "list"]
 TOPICS = ["spaces", "bases", "clocks", "problems", "materials", "parameters"]
 STUDY = """title: small
 problem: {name: bar-neo-hookean}
