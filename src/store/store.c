@@ -226,6 +226,15 @@ int gx_store_write(const char *directory, const struct gx_study *study, const st
   return failed;
 }
 
+/* Whether a table has columns that only those who read it add. */
+static bool has_ours(const struct gx_table *table)
+{
+  static const char *const ours[] = {"study", "result.seconds", "result.ns_per_particle_step"};
+  for (size_t i = 0; i < sizeof ours / sizeof *ours; i++)
+    if (gx_table_find(table, ours[i]) >= 0) return true;
+  return false;
+}
+
 /* The same table with empty timing columns at its end. Frees the old one. */
 static struct gx_table *widen(struct gx_table *narrow)
 {
@@ -268,6 +277,11 @@ struct gx_table *gx_store_read(const char *directory, FILE *errors)
 {
   char *study = path_in(directory, "", names[STUDY], ""), *timing = path_in(directory, "", names[TIMING], "");
   struct gx_table *table = study && timing ? gx_hdf5_read(study, errors) : NULL;
+  if (table && has_ours(table)) {
+    fprintf(errors, "%s: its table is damaged\n", study);
+    gx_table_free(table);
+    table = NULL;
+  }
   if (table && !(table = widen(table))) say(errors, NULL);
   if (table) read_timing(timing, table);
   free(study);

@@ -46,6 +46,10 @@ static int ground_find(struct ground *ground, const struct gx_advice *advice, FI
   if (axes < 0) return no_memory(errors);
   ground->axes = (size_t)axes;
   const char *value = advice->value ? advice->value : "result.displacement.max.rms";
+  if (gx_table_find(ground->table, value) >= 0 && !gx_sheet_error_like(value)) {
+    fprintf(errors, "gridcross: %s is not an error: name a --value such as result.velocity.final.rms\n", value);
+    return -1;
+  }
   if (gx_front_find(&ground->front, ground->table, value, "result.seconds", errors)) return -1;
   gx_front_tell(&ground->front, errors);
   return 0;

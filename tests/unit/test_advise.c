@@ -264,7 +264,7 @@ static void what_cannot_be_advised_is_refused(void **state)
                        "problem.name=VALUE\n");
   advice.value = "result.status";
   tables[0] = untimed;
-  expect_error(advice, "gridcross: result.status is not a number\n");
+  expect_error(advice, "gridcross: result.status is not an error: name a --value such as result.velocity.final.rms\n");
   advice.value = "result.displacement.max.rsm";
   expect_error(advice, "gridcross: no column 'result.displacement.max.rsm': did you mean result.displacement.max.rms?\n");
   advice = (struct gx_advice){.studies = 2, .table = tables, .name = same};

@@ -212,6 +212,17 @@ static void damaged_files_are_refused(void **state)
   refuse(f->other);
   refuse(f->directory);
   refuse("/nowhere/study.h5");
+  static const char *const ours[] = {"study", "result.seconds", "result.ns_per_particle_step"};
+  snprintf(f->other, sizeof f->other, "%s/study.h5", f->directory);
+  for (size_t i = 0; i < sizeof ours / sizeof *ours; i++) { /* columns that reading adds */
+    table = example_table();
+    gx_table_column(table, 1, ours[i], "", GX_INTEGER);
+    assert_int_equal(gx_hdf5_write(f->other, &f->study, f->results, table, stderr), 0);
+    gx_table_free(table);
+    FILE *quiet = tmpfile();
+    assert_null(gx_store_read(f->directory, quiet));
+    fclose(quiet);
+  }
 }
 
 static void a_study_is_stored_and_read_with_its_timing(void **state)
