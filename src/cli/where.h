@@ -5,7 +5,7 @@
 
 #include "command.h"
 
-/* Drops the cases that some --where does not match. Returns 0, or an exit code after a message: no such column, or no such case. */
+/* Drops the cases that some --where does not match. Returns 0, or an exit code after a message: no such column or case. */
 int gx_where_keep(struct gx_command_studies *studies, const struct gx_options *options);
 
 #endif

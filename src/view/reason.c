@@ -43,30 +43,39 @@ static void put_factor(double factor, FILE *out)
   fprintf(out, factor < 0.995 ? "(%.2fx)" : factor < 9.95 ? "(%.1fx)" : "(%.0fx)", factor);
 }
 
-/* The cheapest case of each other value of an axis. scratch: [table->rows]. Returns 0, or -1 when memory runs out. */
-static int put_others(const struct gx_front *front, size_t column, size_t row, double bound, size_t *scratch, FILE *out)
+/* The value of a sample row, and what the cheapest case with it costs, or how near it comes. */
+static void put_other(const struct gx_front *front, size_t column, size_t row, size_t sample, double bound, FILE *out)
 {
   const struct gx_table *table = front->table;
-  const char *gap = ": ";
-  char buffer[GX_NUMBER_LENGTH], error[GX_NUMBER_LENGTH];
-  long distinct = gx_axes_values(table, column, scratch);
-  bool said = false;
+  char value[GX_NUMBER_LENGTH], error[GX_NUMBER_LENGTH];
+  double least, cost = gx_reason_cost(front, row, column, gx_table_get(table, sample, column), bound, &least);
+  struct gx_value at_best = {.type = GX_REAL, .real = least};
+  fprintf(out, "%s ", text_of(table, sample, column, value));
+  if (!isnan(cost))
+    put_factor(cost, out);
+  else if (least < INFINITY)
+    fprintf(out, "(%s at best)", gx_sheet_text(table->column[front->error].name, at_best, error));
+  else
+    fputs("(none)", out);
+}
+
+/* Every other value of an axis, of numbers the nearest. scratch: [table->rows]. Returns 0, or -1 when memory runs out. */
+static int put_others(const struct gx_front *front, size_t column, size_t row, double bound, size_t *scratch, FILE *out)
+{
+  enum { NEAREST = 8 };
+  const struct gx_table *table = front->table;
+  long distinct = gx_axes_values(table, column, scratch), own = 0;
+  bool said = false, number = table->column[column].type != GX_TEXT;
   if (distinct < 0) return -1;
+  while (own < distinct && !equal(table, scratch[own], row, column)) own++;
   if (gx_table_get(table, row, column).type == GX_NULL) return 0;
   for (long i = 0; i < distinct; i++) {
-    struct gx_value value = gx_table_get(table, scratch[i], column);
-    if (value.type == GX_NULL || equal(table, scratch[i], row, column)) continue;
-    double least, cost = gx_reason_cost(front, row, column, value, bound, &least);
-    if (!said) fprintf(out, "cheapest with another %s", table->column[column].name);
-    fprintf(out, "%s%s ", gap, text_of(table, scratch[i], column, buffer));
-    struct gx_value at_best = {.type = GX_REAL, .real = least};
-    if (!isnan(cost))
-      put_factor(cost, out);
-    else if (least < INFINITY)
-      fprintf(out, "(%s at best)", gx_sheet_text(table->column[front->error].name, at_best, error));
+    if (i == own || gx_table_get(table, scratch[i], column).type == GX_NULL || (number && labs(i - own) > NEAREST)) continue;
+    if (said)
+      fputs(", ", out);
     else
-      fputs("(none)", out);
-    gap = ", ";
+      fprintf(out, "cheapest with another %s: ", table->column[column].name);
+    put_other(front, column, row, scratch[i], bound, out);
     said = true;
   }
   if (said) putc('\n', out);

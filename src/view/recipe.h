@@ -7,8 +7,8 @@
 
 #include <gridcross/table.h>
 
-/* One line a section, `problem: {name: bar-linear}`, after `first` or `other`: parameters whose values do not follow from the rest,
- * so that the case of the run file is this case, with its id. */
+/* One line a section, `problem: {name: bar-linear}`, after `first` or `other`: parameters whose values do not follow from the
+ * rest, so that the case of the run file is this case, with its id. */
 void gx_recipe_write(const struct gx_table *table, size_t row, const char *first, const char *other, FILE *out);
 /* Text as YAML, in double quotes. */
 void gx_recipe_quote(const char *text, FILE *out);

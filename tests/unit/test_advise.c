@@ -61,7 +61,7 @@ static struct gx_table *make(size_t rows, const struct line *line)
   return table;
 }
 
-/* The front is a, c, d, e: b costs more than c and errs more, f takes a step above the stable one, g ended early, h has no error. */
+/* The front is a, c, d, e: b costs and errs more than c, f takes a step above the stable one, g ended early, h has no error. */
 static const struct line study[] = {
     {"b", 16, "standard", 0.4, "ok", 0.2, 5e-3, 0.5, 2},         {"a", 8, "standard", 0.4, "ok", 0.4, 1e-2, 1, 1},
     {"e", 16, "moving-mesh", 0.2, "ok", 0.1, 9.9e-5, 0.5, 6},    {"d", 16, "moving-mesh", 0.4, "ok", 0.2, 1e-4, 0.5, 3},
@@ -196,6 +196,26 @@ static void the_step_is_told_from_the_rest(void **state)
     free(message);
     gx_table_free(table);
   }
+}
+
+/* Of many numbers the nearest are shown, eight on either side. */
+static void long_axes_are_cut(void **state)
+{
+  (void)state;
+  struct line line[40];
+  for (int r = 0; r < 40; r++) line[r] = (struct line){"x", r + 1, "standard", 0.4, "ok", 1, 1.0 / (r + 1), 2, r + 1};
+  struct gx_table *table = make(40, line);
+  const struct gx_table *const tables[] = {table};
+  const double bound = 0.05; /* met by 20 cells and more */
+  struct gx_advice advice = {.studies = 1, .table = tables, .name = one_name, .bounds = 1, .bound = &bound};
+  int failed;
+  char *message, *text = printed(&advice, &failed, &message);
+  assert_non_null(strstr(text, "another mesh.cells: 12 (8.33e-2 at best), 13 (7.69e-2 at best), "));
+  assert_non_null(strstr(text, " 28 (1.4x)\n"));
+  assert_null(strstr(text, " 29 ("));
+  free(text);
+  free(message);
+  gx_table_free(table);
 }
 
 /* Small whole numbers, so that there are ties. */
@@ -341,6 +361,7 @@ int main(void)
       cmocka_unit_test(advice_reads_as_expected),
       cmocka_unit_test(the_table_holds_the_front),
       cmocka_unit_test(the_step_is_told_from_the_rest),
+      cmocka_unit_test(long_axes_are_cut),
       cmocka_unit_test(fronts_are_what_they_are_defined_to_be),
       cmocka_unit_test(what_cannot_be_advised_is_refused),
       cmocka_unit_test(a_run_file_gives_its_case_back),
