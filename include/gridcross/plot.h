@@ -37,6 +37,9 @@ enum gx_plot_status {
 /* y against x, one line for each value of the other axes; cases that did not end ok are left out and counted in a note to
  * `errors`, where every message goes. */
 enum gx_plot_status gx_plot_lines(const struct gx_plot *plot, FILE *errors);
+/* The error y against the cost x (NULL: result.seconds) of every case that counts for an advice, a colour for each value of `by`
+ * (none: method.space where it varies, else the first parameter that does), and the error-cost front as steps. */
+enum gx_plot_status gx_plot_front(const struct gx_plot *plot, FILE *errors);
 /* A history against time, one line for each case that ended ok. */
 enum gx_plot_status gx_plot_history(const struct gx_plot *plot, FILE *errors);
 /* The error's last spectrum by wavenumber, both axes logarithmic, the grid's Nyquist wavenumber marked: one line for each case

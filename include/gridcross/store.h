@@ -2,7 +2,7 @@
 /* Tables as CSV, JSON and HDF5, and the study directory that holds them:
  *   study.h5    /table, /histories/<case id>, /spectra/<case id>, /provenance; equal runs give equal bytes
  *   table.csv   the same table
- *   timing.csv  case, seconds, ns_per_particle_step
+ *   timing.csv  case, seconds, ns_per_particle_step, repeats
  *   run.json    host, date, command, seconds
  * Functions that return int give 0, or -1 after a message to `errors`. */
 #ifndef GRIDCROSS_STORE_H
@@ -49,6 +49,8 @@ int gx_store_write(const char *directory, const struct gx_study *study, const st
                    const struct gx_store_run *run, FILE *errors);
 /* The table of a study directory with the timing columns, NULL after a message. */
 struct gx_table *gx_store_read(const char *directory, FILE *errors);
+/* How many runs the times of a study's cases are medians of, at least; 0: the runs that gave the results were timed. */
+long gx_store_read_repeats(const char *directory);
 /* The same as gx_hdf5_read_title and gx_hdf5_read_history, of the study in a directory. */
 char *gx_store_read_title(const char *directory, FILE *errors);
 struct gx_table *gx_store_read_history(const char *directory, const char *id, const char *name, FILE *errors);

@@ -3,6 +3,8 @@
 #ifndef GRIDCROSS_TABLE_H
 #define GRIDCROSS_TABLE_H
 
+#include <stdbool.h>
+
 #include <gridcross/value.h>
 
 struct gx_column {
@@ -29,6 +31,8 @@ int gx_table_set(struct gx_table *table, size_t row, size_t column, struct gx_va
 struct gx_value gx_table_get(const struct gx_table *table, size_t row, size_t column);
 /* Copies a column, name and values, from a table with as many rows. Returns 0, or -1 when memory runs out. */
 int gx_table_copy(struct gx_table *table, size_t column, const struct gx_table *from, size_t source);
+/* Drops the other rows. keep: [rows]. */
+void gx_table_keep(struct gx_table *table, const bool *keep);
 /* Index of the column, or -1. */
 long gx_table_find(const struct gx_table *table, const char *name);
 

@@ -20,6 +20,8 @@ enum { GX_NUMBER_LENGTH = 32 };
 
 /* The shortest of 15 to 17 significant digits that reads back bit for bit. */
 void gx_value_real(double value, char text[GX_NUMBER_LENGTH]);
+/* A number as double; NaN: null or text. */
+double gx_value_number(struct gx_value value);
 /* Order of two values: null, numbers ascending, texts by bytes. 0: equal. */
 int gx_value_compare(struct gx_value a, struct gx_value b);
 

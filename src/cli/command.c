@@ -8,6 +8,8 @@
 
 #include <gridcross/store.h>
 
+#include "where.h"
+
 int gx_command_no_memory(void)
 {
   fputs("gridcross: out of memory\n", stderr);
@@ -46,7 +48,7 @@ int gx_command_studies_read(struct gx_command_studies *studies, const struct gx_
     if (!(studies->name[s] = study_name(options->operand[s]))) return gx_command_no_memory();
     if (!(studies->table[s] = gx_store_read(options->operand[s], stderr))) return GX_EXIT_USAGE;
   }
-  return GX_EXIT_DONE;
+  return gx_where_keep(studies, options);
 }
 
 void gx_command_studies_free(struct gx_command_studies *studies)
@@ -59,16 +61,19 @@ void gx_command_studies_free(struct gx_command_studies *studies)
   free(studies->name);
 }
 
+size_t gx_command_count(const struct gx_options *options, const char *name)
+{
+  const char *given = gx_options_value(options, name);
+  char *end;
+  long count = strtol(given, &end, 10);
+  if (end != given && !*end && count >= 1 && count <= 4096) return (size_t)count;
+  fprintf(stderr, "gridcross %s: --%s takes a number from 1 to 4096, not '%s'\n", options->command->name, name, given);
+  return 0;
+}
+
 size_t gx_command_jobs(const struct gx_options *options)
 {
-  const char *given = gx_options_value(options, "jobs");
-  char *end;
-  if (!given) {
-    long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    return processors > 0 ? (size_t)processors : 1;
-  }
-  long jobs = strtol(given, &end, 10);
-  if (end != given && !*end && jobs >= 1 && jobs <= 4096) return (size_t)jobs;
-  fprintf(stderr, "gridcross %s: -j takes a number from 1 to 4096, not '%s'\n", options->command->name, given);
-  return 0;
+  if (gx_options_value(options, "jobs")) return gx_command_count(options, "jobs");
+  long processors = sysconf(_SC_NPROCESSORS_ONLN);
+  return processors > 0 ? (size_t)processors : 1;
 }

@@ -13,6 +13,7 @@ static const struct gx_option option[] = {
     {0, "value", "COLUMN", "column to show; as often as wanted; default: result.displacement.max.rms"},
     {0, "csv", NULL, "print one line a case as CSV, with all digits"},
     {0, "json", NULL, "the same as JSON"},
+    GX_COMMAND_WHERE,
     {0},
 };
 

@@ -17,7 +17,10 @@ static const struct gx_option option[] = {
     {0, "y", "COLUMN",
      "lines: result.displacement.max.rms, ...; history: displacement.rms, energy.kinetic, ...; "
      "spectrum: displacement, velocity, stress"},
-    {0, "by", "PATH", "one line a value, shown by its colour; as often as wanted; the other axes follow in the legend"},
+    {0, "by", "PATH",
+     "one line a value, shown by its colour; as often as wanted; the other axes follow in the legend, but with --front"},
+    {0, "front", NULL, "lines: error against cost of every case, result.seconds or --x, and the front of the cheapest"},
+    GX_COMMAND_WHERE,
     {0},
 };
 
@@ -67,7 +70,7 @@ static int plot(const struct gx_options *options, const struct kind *kind, const
       .point = point,
       .output = gx_options_value(options, "output"),
   };
-  enum gx_plot_status status = kind->draw(&figure, stderr);
+  enum gx_plot_status status = (gx_options_value(options, "front") ? gx_plot_front : kind->draw)(&figure, stderr);
   free(title);
   return status == GX_PLOT_DONE ? GX_EXIT_DONE : status == GX_PLOT_FAILED ? GX_EXIT_FAILED : GX_EXIT_USAGE;
 }
@@ -83,6 +86,10 @@ int gx_command_plot_figure(const struct gx_options *options, size_t points, cons
   if (kind && kind->draw != gx_plot_lines && gx_options_value(options, "x")) {
     fprintf(stderr, "gridcross plot: a %s is drawn against %s: leave out --x\n", kind->name,
             kind->draw == gx_plot_history ? "time" : "wavenumber");
+    return GX_EXIT_USAGE;
+  }
+  if (kind && kind->draw == gx_plot_history && gx_options_value(options, "front")) {
+    fputs("gridcross plot: a history has no front: leave out history or --front\n", stderr);
     return GX_EXIT_USAGE;
   }
   if (options->operands > 1 && !kind && check_kind(last)) return GX_EXIT_USAGE;

@@ -16,6 +16,7 @@ static const struct gx_option option[] = {
     GX_COMMAND_SET,
     {'o', "output", "DIR", "where the study goes; default: the run file's name with .study"},
     {'j', "jobs", "N", "cases run at once; default: the number of processors"},
+    {0, "repeats", "N", "time each case in N runs more without measures, and report the median; changes no result"},
     {0, "csv", NULL, "print the whole table as CSV"},
     {0, "json", NULL, "print the whole table as JSON"},
     {0, "no-timing", NULL, "print no columns that differ between equal runs"},
@@ -205,9 +206,11 @@ static int run(const struct gx_options *options)
     fputs("gridcross run: --csv or --json, not both\n", stderr);
     return GX_EXIT_USAGE;
   }
-  size_t jobs = gx_command_jobs(options);
-  char *directory = jobs ? choose_directory(options) : NULL;
+  bool repeated = gx_options_value(options, "repeats");
+  size_t jobs = gx_command_jobs(options), repeats = jobs && repeated ? gx_command_count(options, "repeats") : 0;
+  char *directory = jobs && (repeats || !repeated) ? choose_directory(options) : NULL;
   struct gx_study *study = directory ? gx_command_read(options) : NULL;
+  if (study) study->repeats = repeats;
   int code = GX_EXIT_USAGE;
   if (study && study->duplicates && !gx_options_value(options, "quiet"))
     fprintf(stderr, "note: %zu cases are equal to others and run once\n", study->duplicates);

@@ -86,6 +86,15 @@ int gx_table_copy(struct gx_table *table, size_t column, const struct gx_table *
   return failed;
 }
 
+void gx_table_keep(struct gx_table *table, const bool *keep)
+{
+  size_t kept = 0;
+  for (size_t r = 0; r < table->rows; r++)
+    if (keep[r])
+      memmove(&table->value[table->columns * kept++], &table->value[table->columns * r], table->columns * sizeof *table->value);
+  table->rows = kept;
+}
+
 long gx_table_find(const struct gx_table *table, const char *name)
 {
   for (size_t c = 0; c < table->columns; c++)

@@ -2,6 +2,7 @@
 /* Printing and ordering values. */
 #include <gridcross/value.h>
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,9 +15,9 @@ void gx_value_real(double value, char text[GX_NUMBER_LENGTH])
   }
 }
 
-static double number(struct gx_value value)
+double gx_value_number(struct gx_value value)
 {
-  return value.type == GX_INTEGER ? (double)value.integer : value.real;
+  return value.type == GX_INTEGER ? (double)value.integer : value.type == GX_REAL ? value.real : NAN;
 }
 
 static int kind(struct gx_value value)
@@ -30,5 +31,5 @@ int gx_value_compare(struct gx_value a, struct gx_value b)
   if (kind(a) == 0) return 0;
   if (kind(a) == 2) return strcmp(a.text, b.text);
   if (a.type == GX_INTEGER && b.type == GX_INTEGER) return (a.integer > b.integer) - (a.integer < b.integer);
-  return (number(a) > number(b)) - (number(a) < number(b));
+  return (gx_value_number(a) > gx_value_number(b)) - (gx_value_number(a) < gx_value_number(b));
 }

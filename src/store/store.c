@@ -114,10 +114,12 @@ int gx_store_prepare(const char *directory, FILE *errors)
 static struct gx_table *timing_table(const struct gx_study *study, const struct gx_result *results)
 {
   struct gx_table *full = gx_study_table(study, results, true);
-  struct gx_table *timing = full ? gx_table_create(3, study->count) : NULL;
-  int failed = !timing;
+  struct gx_table *timing = full ? gx_table_create(4, study->count) : NULL;
+  int failed = !timing || gx_table_column(timing, 3, "repeats", "", GX_INTEGER);
   const size_t from[] = {0, full ? full->columns - 2 : 0, full ? full->columns - 1 : 0};
   const char *const name[] = {"case", "seconds", "ns_per_particle_step"};
+  const struct gx_value repeats = {.type = GX_INTEGER, .integer = (long)study->repeats};
+  for (size_t r = 0; r < study->count && !failed; r++) failed = gx_table_set(timing, r, 3, repeats);
   for (size_t c = 0; c < 3 && !failed; c++)
     failed = gx_table_copy(timing, c, full, from[c]) ||
              gx_table_column(timing, c, name[c], full->column[from[c]].unit, full->column[from[c]].type);
@@ -224,6 +226,15 @@ int gx_store_write(const char *directory, const struct gx_study *study, const st
   return failed;
 }
 
+/* Whether a table has columns that only those who read it add. */
+static bool has_ours(const struct gx_table *table)
+{
+  static const char *const ours[] = {"study", "result.seconds", "result.ns_per_particle_step"};
+  for (size_t i = 0; i < sizeof ours / sizeof *ours; i++)
+    if (gx_table_find(table, ours[i]) >= 0) return true;
+  return false;
+}
+
 /* The same table with empty timing columns at its end. Frees the old one. */
 static struct gx_table *widen(struct gx_table *narrow)
 {
@@ -250,6 +261,7 @@ static void read_timing(const char *path, struct gx_table *table)
   struct gx_value seconds = {.type = GX_REAL}, cost = {.type = GX_REAL};
   while (in && id_column >= 0 && fgets(line, sizeof line, in)) {
     if (sscanf(line, "%16[^,],%lf,%lf", id, &seconds.real, &cost.real) != 3) continue;
+    if (!isfinite(seconds.real) || !isfinite(cost.real)) continue;
     for (size_t tried = 0; tried < table->rows; tried++, row = (row + 1) % table->rows) {
       struct gx_value value = gx_table_get(table, row, (size_t)id_column);
       if (value.type != GX_TEXT || strcmp(value.text, id)) continue;
@@ -265,11 +277,31 @@ struct gx_table *gx_store_read(const char *directory, FILE *errors)
 {
   char *study = path_in(directory, "", names[STUDY], ""), *timing = path_in(directory, "", names[TIMING], "");
   struct gx_table *table = study && timing ? gx_hdf5_read(study, errors) : NULL;
+  if (table && has_ours(table)) {
+    fprintf(errors, "%s: its table is damaged\n", study);
+    gx_table_free(table);
+    table = NULL;
+  }
   if (table && !(table = widen(table))) say(errors, NULL);
   if (table) read_timing(timing, table);
   free(study);
   free(timing);
   return table;
+}
+
+long gx_store_read_repeats(const char *directory)
+{
+  char *path = path_in(directory, "", names[TIMING], ""), line[256];
+  FILE *in = path ? fopen(path, "rb") : NULL;
+  long least = -1, repeats;
+  for (int row = 0; in && fgets(line, sizeof line, in); row++) {
+    if (!row) continue;
+    if (sscanf(line, "%*[^,],%*[^,],%*[^,],%ld", &repeats) != 1) repeats = 0;
+    if (least < 0 || repeats < least) least = repeats;
+  }
+  if (in) fclose(in);
+  free(path);
+  return least > 0 ? least : 0;
 }
 
 char *gx_store_read_title(const char *directory, FILE *errors)

@@ -8,6 +8,8 @@
 #include <string.h>
 #include <time.h>
 
+#include <gsl/gsl_statistics_double.h>
+
 #include "simulation.h"
 #include "stability.h"
 
@@ -264,7 +266,7 @@ static double kinetic_energy(const struct run *run)
   return kinetic;
 }
 
-static enum gx_status march(struct run *run)
+static enum gx_status take_steps(struct run *run)
 {
   const struct gx_simulation *simulation = &run->simulation;
   struct gx_result *result = run->result;
@@ -287,6 +289,17 @@ static enum gx_status march(struct run *run)
     sample_frequency(run, step);
   }
   return GX_OK;
+}
+
+static enum gx_status march(struct run *run)
+{
+  struct gx_result *result = run->result;
+  double before = seconds_now();
+  enum gx_status status = take_steps(run);
+  result->seconds = seconds_now() - before - measuring_seconds(run);
+  if (result->steps > 0)
+    result->ns_per_particle_step = 1e9 * result->seconds / (result->steps * (double)run->simulation.particles->n);
+  return status;
 }
 
 static void finish(struct run *run)
@@ -339,19 +352,25 @@ static double estimate_stable_dt(const struct gx_case *one)
   return dt;
 }
 
+static struct gx_case without_measures(const struct gx_case *one)
+{
+  struct gx_case bare = *one;
+  bare.value[GX_OUTPUT_MEASURES].text = "final";
+  bare.value[GX_OUTPUT_HISTORIES].integer = 0;
+  bare.value[GX_OUTPUT_PROBE].type = bare.value[GX_OUTPUT_JUMPS].type = GX_NULL;
+  bare.value[GX_OUTPUT_SPECTRA].integer = 0;
+  bare.value[GX_OUTPUT_FREQUENCY].integer = 0;
+  bare.value[GX_OUTPUT_BUDGET].type = GX_NULL;
+  return bare;
+}
+
 /* The same case with a finer step, up to the same end; result->reference is the difference of the final states. */
 static void compare_with_reference(const struct run *run, const struct gx_case *one, double refine)
 {
-  struct gx_case final_only = *one;
-  final_only.value[GX_OUTPUT_MEASURES].text = "final";
-  final_only.value[GX_OUTPUT_HISTORIES].integer = 0;
-  final_only.value[GX_OUTPUT_PROBE].type = final_only.value[GX_OUTPUT_JUMPS].type = GX_NULL;
-  final_only.value[GX_OUTPUT_SPECTRA].integer = 0;
-  final_only.value[GX_OUTPUT_FREQUENCY].integer = 0;
-  final_only.value[GX_OUTPUT_BUDGET].type = GX_NULL;
+  struct gx_case bare = without_measures(one);
   struct gx_result result = {.outcome = {.status = GX_OK, .particle = -1}};
   struct run fine = {.result = &result};
-  if (prepare(&fine, &final_only, refine) == GX_OK && march(&fine) == GX_OK)
+  if (prepare(&fine, &bare, refine) == GX_OK && march(&fine) == GX_OK)
     gx_measure_difference(run->measure, fine.measure, run->result->reference);
   else
     snprintf(run->result->outcome.reason, GX_REASON_LENGTH, "no reference: at dt/%g %s, %.180s", refine,
@@ -372,9 +391,8 @@ struct gx_result gx_case_run(const struct gx_case *one)
   for (int i = 0; i < GX_BUDGET_ENTRIES; i++) result.budget.value[i] = NAN;
   struct run run = {.result = &result};
   if (prepare(&run, one, 1) == GX_OK) {
-    double before = seconds_now(), refine = (double)one->value[GX_OUTPUT_REFERENCE].integer;
+    double refine = (double)one->value[GX_OUTPUT_REFERENCE].integer;
     bool done = march(&run) == GX_OK;
-    result.seconds = seconds_now() - before - measuring_seconds(&run);
     result.measured = *gx_measure_result(run.measure);
     if (run.budget) result.budget = gx_budget_mean(run.budget);
     result.frequency = run.simulation.frequency;
@@ -383,9 +401,31 @@ struct gx_result gx_case_run(const struct gx_case *one)
     if (done && refine > 0) compare_with_reference(&run, one, refine);
     result.stable_dt = estimate_stable_dt(one);
   }
-  if (result.steps > 0) result.ns_per_particle_step = 1e9 * result.seconds / (result.steps * (double)run.simulation.particles->n);
   finish(&run);
   return result;
+}
+
+void gx_case_time(const struct gx_case *one, size_t repeats, struct gx_result *result)
+{
+  double *seconds = result->outcome.status == GX_OK && repeats ? calloc(2 * repeats, sizeof *seconds) : NULL;
+  if (!seconds) return;
+  double *cost = seconds + repeats;
+  struct gx_case bare = without_measures(one);
+  size_t done = 0;
+  for (; done < repeats; done++) {
+    struct gx_result again = {.outcome = {.status = GX_OK, .particle = -1}};
+    struct run run = {.result = &again};
+    bool failed = prepare(&run, &bare, 1) != GX_OK || march(&run) != GX_OK;
+    finish(&run);
+    if (failed) break; /* out of memory: the case itself ran */
+    seconds[done] = again.seconds;
+    cost[done] = again.ns_per_particle_step;
+  }
+  if (done == repeats) {
+    result->seconds = gsl_stats_median(seconds, 1, repeats);
+    result->ns_per_particle_step = gsl_stats_median(cost, 1, repeats);
+  }
+  free(seconds);
 }
 
 void gx_case_free(struct gx_result *result)

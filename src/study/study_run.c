@@ -24,6 +24,7 @@ static void *work(void *argument)
     size_t i = pool->next++;
     pthread_mutex_unlock(&pool->lock);
     pool->results[i] = gx_case_run(&pool->study->cases[i]);
+    gx_case_time(&pool->study->cases[i], pool->study->repeats, &pool->results[i]);
     pthread_mutex_lock(&pool->lock);
     pool->done++;
     if (pool->progress) pool->progress->done(pool->progress->context, pool->done, pool->study->count);

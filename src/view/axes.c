@@ -11,6 +11,13 @@ bool gx_axes_parameter(const struct gx_table *table, size_t column)
   return strcmp(name, "case") != 0 && strncmp(name, "result.", 7) != 0;
 }
 
+bool gx_axes_vary(const struct gx_table *table, size_t column)
+{
+  for (size_t r = 1; r < table->rows; r++)
+    if (gx_value_compare(gx_table_get(table, 0, column), gx_table_get(table, r, column))) return true;
+  return false;
+}
+
 struct entry {
   struct gx_value value;
   size_t row, first; /* first: row where this value appears first */
@@ -46,6 +53,15 @@ long gx_axes_rank(const struct gx_table *table, size_t column, size_t *rank)
     rank[entry[i].row] = (size_t)distinct - 1;
   }
   free(entry);
+  return distinct;
+}
+
+long gx_axes_values(const struct gx_table *table, size_t column, size_t *first)
+{
+  size_t *rank = calloc(table->rows + 1, sizeof *rank);
+  long distinct = rank ? gx_axes_rank(table, column, rank) : -1;
+  for (size_t r = table->rows; r-- > 0 && distinct >= 0;) first[rank[r]] = r;
+  free(rank);
   return distinct;
 }
 

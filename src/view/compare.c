@@ -20,9 +20,9 @@ struct layout {
   int row_width, value_width, order_width, group_width;
 };
 
-static const char *axis_label(const struct gx_pivot *pivot, size_t axis, size_t column, char text[GX_PIVOT_LABEL])
+static const char *axis_label(const struct gx_pivot *pivot, size_t axis, size_t column, char text[GX_SHEET_LABEL])
 {
-  return gx_pivot_label(pivot, pivot->axis[axis], pivot->column_sample[column], text);
+  return gx_sheet_label(pivot->table, pivot->axis[axis], pivot->column_sample[column], text);
 }
 
 static const char *row_label(const struct gx_pivot *pivot, size_t row, char buffer[GX_NUMBER_LENGTH])
@@ -61,7 +61,7 @@ static void widen(int *width, const char *text)
 static struct layout measure(const struct gx_pivot *pivot, size_t v)
 {
   struct layout at = {.pivot = pivot, .v = v, .ordered = gx_pivot_ordered(pivot, v)};
-  char buffer[GX_NUMBER_LENGTH], label[GX_PIVOT_LABEL];
+  char buffer[GX_NUMBER_LENGTH], label[GX_SHEET_LABEL];
   widen(&at.row_width, pivot->table->column[pivot->row_axis].name);
   if (at.ordered) at.order_width = (int)strlen("order");
   for (size_t r = 0; r < pivot->rows; r++) {
@@ -85,7 +85,7 @@ static void print_labels(const struct layout *at, const char *lead, size_t axis,
   int skipped = at->row_width - gx_sheet_width(lead);
   fputs(lead, out);
   for (size_t c = from; c < to; c++) {
-    char label[GX_PIVOT_LABEL], before[GX_PIVOT_LABEL];
+    char label[GX_SHEET_LABEL], before[GX_SHEET_LABEL];
     bool same = c > from && !innermost;
     for (size_t a = 0; a <= axis && same; a++)
       same = !strcmp(axis_label(at->pivot, a, c, label), axis_label(at->pivot, a, c - 1, before));
@@ -104,7 +104,7 @@ static void print_labels(const struct layout *at, const char *lead, size_t axis,
 
 static bool any_label(const struct gx_pivot *pivot, size_t axis, size_t from, size_t to)
 {
-  char label[GX_PIVOT_LABEL];
+  char label[GX_SHEET_LABEL];
   for (size_t c = from; c < to; c++)
     if (*axis_label(pivot, axis, c, label)) return true;
   return false;
@@ -154,7 +154,7 @@ static size_t block_end(const struct gx_pivot *pivot, size_t from, size_t fit)
   if (end >= pivot->columns) return pivot->columns;
   size_t at = end;
   for (size_t c = from + 1; c <= end; c++) {
-    char label[GX_PIVOT_LABEL], before[GX_PIVOT_LABEL];
+    char label[GX_SHEET_LABEL], before[GX_SHEET_LABEL];
     size_t axis = 0;
     while (axis < pivot->axes && !strcmp(axis_label(pivot, axis, c, label), axis_label(pivot, axis, c - 1, before))) axis++;
     if (axis > best) continue;
@@ -197,7 +197,7 @@ static int copy_column(struct gx_table *to, size_t column, const struct gx_pivot
 
 static int order_column(struct gx_table *to, size_t column, const struct gx_pivot *pivot, size_t v)
 {
-  char name[GX_PIVOT_LABEL];
+  char name[GX_SHEET_LABEL];
   snprintf(name, sizeof name, "%s.order", pivot->table->column[pivot->value[v]].name);
   int failed = gx_table_column(to, column, name, "", GX_REAL);
   size_t row = 0;

@@ -120,8 +120,59 @@ enum gx_plot_status gx_figure_draw(const struct gx_figure *figure, const char *o
 
 double gx_figure_number(const struct gx_figure *figure, size_t row, size_t column)
 {
-  struct gx_value value = gx_table_get(figure->data, row, column);
-  return value.type == GX_REAL ? value.real : value.type == GX_INTEGER ? (double)value.integer : NAN;
+  return gx_value_number(gx_table_get(figure->data, row, column));
+}
+
+int gx_figure_start(struct gx_figure *figure, size_t lines, size_t points, const struct gx_column *x, const struct gx_column *y)
+{
+  if (!(figure->line = calloc(lines + 1, sizeof *figure->line))) return -1;
+  if (!(figure->data = gx_table_create(GX_FIGURE_COLUMNS, points))) return -1;
+  figure->data->rows = 0; /* in use */
+  return gx_table_column(figure->data, GX_FIGURE_LINE, "line", "", GX_INTEGER) ||
+         gx_table_column(figure->data, GX_FIGURE_X, x->name, x->unit, x->type) ||
+         gx_table_column(figure->data, GX_FIGURE_Y, y->name, y->unit, y->type) ||
+         gx_table_column(figure->data, GX_FIGURE_LABEL, "label", "", GX_TEXT);
+}
+
+struct gx_figure_line *gx_figure_begin(struct gx_figure *figure, char *label)
+{
+  if (!label) return NULL;
+  for (char *c = label; *c; c++) /* gnuplot reads the data by lines */
+    if ((unsigned char)*c < ' ') *c = ' ';
+  struct gx_figure_line *line = &figure->line[figure->lines++];
+  *line = (struct gx_figure_line){.label = label, .first = figure->data->rows, .order = NAN, .nyquist = NAN};
+  return line;
+}
+
+int gx_figure_add(struct gx_figure *figure, struct gx_value x, struct gx_value y)
+{
+  struct gx_figure_line *line = &figure->line[figure->lines - 1];
+  size_t row = figure->data->rows++;
+  line->count++;
+  return gx_table_set(figure->data, row, GX_FIGURE_LINE, (struct gx_value){.type = GX_INTEGER, .integer = (long)figure->lines}) ||
+         gx_table_set(figure->data, row, GX_FIGURE_X, x) || gx_table_set(figure->data, row, GX_FIGURE_Y, y) ||
+         gx_table_set(figure->data, row, GX_FIGURE_LABEL, (struct gx_value){.type = GX_TEXT, .text = line->label});
+}
+
+void gx_figure_end(struct gx_figure *figure)
+{
+  struct gx_figure_line *line = &figure->line[figure->lines - 1];
+  if (line->count) return;
+  free(line->label);
+  figure->lines--;
+}
+
+struct gx_figure_axis gx_figure_range(const struct gx_figure *figure, size_t column, double factor, size_t from)
+{
+  struct gx_figure_axis axis = {.least = INFINITY, .most = -INFINITY};
+  for (size_t i = 0; i < figure->lines; i++)
+    for (size_t p = figure->line[i].count > from ? from : 0; p < figure->line[i].count; p++) {
+      double value = gx_figure_number(figure, figure->line[i].first + p, column);
+      axis.least = fmin(axis.least, value);
+      axis.most = fmax(axis.most, value);
+    }
+  axis.log = axis.least > 0 && axis.most >= factor * axis.least;
+  return axis;
 }
 
 void gx_figure_free(struct gx_figure *figure)

@@ -19,7 +19,8 @@ const char gx_gnuplot_mark[] = "# gridcross plot overwrites this file: restyle a
 /* Okabe and Ito's palette, yellow left out: too light on white. */
 static const char *const colours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"};
 static const int markers[] = {7, 5, 9, 13, 11, 15, 6, 4, 8, 12, 10, 14};
-enum { COLOURS = sizeof colours / sizeof *colours, MARKERS = sizeof markers / sizeof *markers, DASHES = 5 };
+_Static_assert(sizeof colours / sizeof *colours == GX_FIGURE_COLOURS, "plots choose among them");
+enum { MARKERS = sizeof markers / sizeof *markers, DASHES = 5 };
 
 /* Bytes of a well-formed UTF-8 character, 0: it is none. */
 static size_t character(const char *text)
@@ -197,10 +198,13 @@ static void put_file(const char *name, const char *ending, FILE *out)
 
 static void put_lines(const struct gx_figure *figure, const char *stem, FILE *out)
 {
+  static const char *const with[] = {
+      [GX_FIGURE_LINES_POINTS] = "linespoints", [GX_FIGURE_POINTS] = "points", [GX_FIGURE_STEPS] = "steps"};
   for (size_t i = 0; i < figure->lines; i++) {
     const struct gx_figure_line *line = &figure->line[i];
-    fprintf(out, "set style line %zu linecolor rgb '%s' linewidth 1.6 dashtype %d pointtype %d pointsize 0.9", i + 1,
-            colours[line->colour % COLOURS], line->dash % DASHES + 1, markers[line->marker % MARKERS]);
+    fprintf(out, "set style line %zu linecolor rgb '%s' linewidth 1.6 dashtype %d pointtype %d pointsize %s", i + 1,
+            colours[line->colour % GX_FIGURE_COLOURS], line->dash % DASHES + 1, markers[line->marker % MARKERS],
+            line->style == GX_FIGURE_POINTS ? "0.6" : "0.9");
     if (figure->dense) fprintf(out, " pointinterval %zu", line->count / 8 + 1);
     putc('\n', out);
   }
@@ -212,10 +216,10 @@ static void put_lines(const struct gx_figure *figure, const char *stem, FILE *ou
     put_file(stem, "csv", out);
     fprintf(out, " skip 1 every ::%zu::%zu using %d:%d with ", line->first, line->first + line->count - 1, GX_FIGURE_X + 1,
             GX_FIGURE_Y + 1);
-    if (line->printed)
+    if (line->style == GX_FIGURE_PRINTED)
       fputs("points pointtype 6 pointsize 2 linewidth 1.6 linecolor rgb '#000000' title \"", out);
     else
-      fprintf(out, "linespoints linestyle %zu title \"", i + 1);
+      fprintf(out, "%s linestyle %zu title \"", with[line->style], i + 1);
     put_part(line->label, out);
     if (!isnan(line->order)) fprintf(out, " (order %.1f)", fabs(line->order) < 0.05 ? 0 : line->order);
     putc('"', out);

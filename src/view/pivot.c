@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Joins studies, chooses axes and places each case in its cell. */
+/* Chooses axes and places each case in its cell. */
 #include "pivot.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "../core/nearest.h"
 #include "axes.h"
+#include "join.h"
 #include "sheet.h"
 
 /* Axes along which an error has an order, and whether they refine upwards. */
@@ -25,93 +25,11 @@ static int no_memory(FILE *errors)
   return -1;
 }
 
-static size_t count_columns(const struct gx_comparison *comparison)
-{
-  size_t count = 0;
-  for (size_t s = 0; s < comparison->studies; s++)
-    for (size_t c = 0; c < comparison->table[s]->columns; c++) {
-      bool known = false;
-      for (size_t before = 0; before < s && !known; before++)
-        known = gx_table_find(comparison->table[before], comparison->table[s]->column[c].name) >= 0;
-      count += !known;
-    }
-  return count;
-}
-
-/* Columns of every study by name, in the order of the first that has them, then `study`: the last, so that it is an axis only
- * where parameters do not tell two cases apart. */
-static struct gx_table *join(const struct gx_comparison *comparison)
-{
-  size_t rows = 0, columns = 0, at = 0, study = count_columns(comparison);
-  for (size_t s = 0; s < comparison->studies; s++) rows += comparison->table[s]->rows;
-  struct gx_table *joined = gx_table_create(study + 1, rows);
-  int failed = !joined || gx_table_column(joined, study, "study", "", GX_TEXT);
-  for (size_t s = 0; s < comparison->studies && !failed; s++) {
-    const struct gx_table *table = comparison->table[s];
-    for (size_t c = 0; c < table->columns && !failed; c++) {
-      const struct gx_column *column = &table->column[c];
-      long to = gx_table_find(joined, column->name);
-      if (to < 0) {
-        to = (long)columns++;
-        failed = gx_table_column(joined, (size_t)to, column->name, column->unit, column->type);
-      }
-      for (size_t r = 0; r < table->rows && !failed; r++)
-        failed = gx_table_set(joined, at + r, (size_t)to, gx_table_get(table, r, c));
-    }
-    struct gx_value name = {.type = GX_TEXT, .text = comparison->name[s]};
-    for (size_t r = 0; r < table->rows && !failed; r++) failed = gx_table_set(joined, at + r, study, name);
-    at += table->rows;
-  }
-  if (!failed) return joined;
-  gx_table_free(joined);
-  return NULL;
-}
-
 static bool among(size_t column, size_t count, const size_t *list)
 {
   for (size_t i = 0; i < count; i++)
     if (list[i] == column) return true;
   return false;
-}
-
-static bool varies(const struct gx_table *table, size_t column)
-{
-  for (size_t r = 1; r < table->rows; r++)
-    if (gx_value_compare(gx_table_get(table, 0, column), gx_table_get(table, r, column))) return true;
-  return false;
-}
-
-static void name_candidates(const struct gx_table *table, const char *name, bool parameter, FILE *errors)
-{
-  struct gx_nearest near = {.word = name};
-  const char *meant = NULL;
-  for (size_t c = 0; c < table->columns; c++) {
-    const char *column = table->column[c].name;
-    size_t n = strlen(name), m = strlen(column);
-    if (parameter && !gx_axes_parameter(table, c)) continue;
-    gx_nearest_try(&near, column);
-    bool tail = n && m > n && column[m - n - 1] == '.' && !strcmp(column + m - n, name);
-    if (tail) meant = column;
-  }
-  if (!meant && *near.best) meant = near.best;
-  if (meant) fprintf(errors, ": did you mean %s?", meant);
-  const char *gap = "; what varies here: ";
-  for (size_t c = 0; c < table->columns && parameter; c++)
-    if (gx_axes_parameter(table, c) && varies(table, c)) {
-      fprintf(errors, "%s%s", gap, table->column[c].name);
-      gap = ", ";
-    }
-}
-
-/* Column of a parameter (or of any column), or -1 after a message. */
-static long find(const struct gx_table *table, const char *name, bool parameter, FILE *errors)
-{
-  long c = gx_table_find(table, name);
-  if (c >= 0 && (!parameter || gx_axes_parameter(table, (size_t)c))) return c;
-  fprintf(errors, "gridcross: no %s '%s'", parameter ? "parameter" : "column", name);
-  name_candidates(table, name, parameter, errors);
-  putc('\n', errors);
-  return -1;
 }
 
 static bool has_null(const struct gx_table *table, size_t column)
@@ -126,11 +44,11 @@ static size_t default_rows(const struct gx_pivot *pivot)
   const struct gx_table *table = pivot->table;
   for (size_t i = 0; i < sizeof preferred_rows / sizeof *preferred_rows; i++) {
     long c = gx_table_find(table, preferred_rows[i]);
-    if (c < 0 || !varies(table, (size_t)c) || among((size_t)c, pivot->axes, pivot->axis)) continue;
+    if (c < 0 || !gx_axes_vary(table, (size_t)c) || among((size_t)c, pivot->axes, pivot->axis)) continue;
     if (!has_null(table, (size_t)c)) return (size_t)c;
   }
   for (size_t c = 0; c < table->columns; c++)
-    if (gx_axes_parameter(table, c) && varies(table, c) && !among(c, pivot->axes, pivot->axis)) return c;
+    if (gx_axes_parameter(table, c) && gx_axes_vary(table, c) && !among(c, pivot->axes, pivot->axis)) return c;
   long c = gx_table_find(table, preferred_rows[0]);
   return c >= 0 && !among((size_t)c, pivot->axes, pivot->axis) ? (size_t)c : table->columns - 1;
 }
@@ -158,11 +76,11 @@ static int fill_axes(struct gx_pivot *pivot, const struct gx_comparison *compari
 static int choose_axes(struct gx_pivot *pivot, const struct gx_comparison *comparison, FILE *errors)
 {
   for (size_t i = 0; i < comparison->columns; i++) {
-    long c = find(pivot->table, comparison->column[i], true, errors);
+    long c = gx_join_find(pivot->table, comparison->column[i], true, errors);
     if (c < 0) return -1;
     if (!among((size_t)c, pivot->axes, pivot->axis)) pivot->axis[pivot->axes++] = (size_t)c;
   }
-  long rows = comparison->rows ? find(pivot->table, comparison->rows, true, errors) : (long)default_rows(pivot);
+  long rows = comparison->rows ? gx_join_find(pivot->table, comparison->rows, true, errors) : (long)default_rows(pivot);
   if (rows < 0) return -1;
   pivot->row_axis = (size_t)rows;
   if (among(pivot->row_axis, pivot->axes, pivot->axis)) {
@@ -180,7 +98,7 @@ static int choose_values(struct gx_pivot *pivot, const struct gx_comparison *com
   pivot->value = calloc(pivot->values, sizeof *pivot->value);
   if (!pivot->value) return no_memory(errors);
   for (size_t v = 0; v < pivot->values; v++) {
-    long c = find(pivot->table, name[v], false, errors);
+    long c = gx_join_find(pivot->table, name[v], false, errors);
     if (c < 0) return -1;
     pivot->value[v] = (size_t)c;
   }
@@ -229,7 +147,8 @@ static int place(struct gx_pivot *pivot, size_t *scratch, FILE *errors)
 struct gx_pivot *gx_pivot_create(const struct gx_comparison *comparison, FILE *errors)
 {
   struct gx_pivot *pivot = calloc(1, sizeof *pivot);
-  if (!pivot || !(pivot->table = join(comparison)) || !(pivot->axis = calloc(pivot->table->columns + 1, sizeof *pivot->axis))) {
+  if (!pivot || !(pivot->table = gx_join_tables(comparison->studies, comparison->table, comparison->name)) ||
+      !(pivot->axis = calloc(pivot->table->columns + 1, sizeof *pivot->axis))) {
     no_memory(errors);
     gx_pivot_free(pivot);
     return NULL;
@@ -258,20 +177,6 @@ void gx_pivot_free(struct gx_pivot *pivot)
   free(pivot);
 }
 
-const char *gx_pivot_label(const struct gx_pivot *pivot, size_t column, size_t row, char text[GX_PIVOT_LABEL])
-{
-  char buffer[GX_NUMBER_LENGTH];
-  const char *name = pivot->table->column[column].name;
-  struct gx_value value = gx_table_get(pivot->table, row, column);
-  if (value.type == GX_NULL)
-    text[0] = '\0';
-  else if (value.type == GX_TEXT)
-    snprintf(text, GX_PIVOT_LABEL, "%s", value.text);
-  else
-    snprintf(text, GX_PIVOT_LABEL, "%s %s", gx_sheet_leaf(name), gx_sheet_text(name, value, buffer));
-  return text;
-}
-
 bool gx_pivot_ok(const struct gx_pivot *pivot, long table_row, size_t column)
 {
   static const char budget[] = "result.budget.";
@@ -292,8 +197,7 @@ bool gx_pivot_ordered(const struct gx_pivot *pivot, size_t v)
 
 double gx_pivot_number(const struct gx_pivot *pivot, long table_row, size_t column)
 {
-  struct gx_value value = gx_table_get(pivot->table, (size_t)table_row, column);
-  return value.type == GX_REAL ? value.real : value.type == GX_INTEGER ? (double)value.integer : NAN;
+  return gx_value_number(gx_table_get(pivot->table, (size_t)table_row, column));
 }
 
 double gx_pivot_order(const struct gx_pivot *pivot, size_t v, size_t row, size_t column)

@@ -18,14 +18,9 @@ struct gx_pivot {
   long *cell;            /* [rows][columns] table row, -1: no such case; owned */
 };
 
-enum { GX_PIVOT_LABEL = 160 };
-
 /* NULL after a message to `errors`. */
 struct gx_pivot *gx_pivot_create(const struct gx_comparison *comparison, FILE *errors);
 void gx_pivot_free(struct gx_pivot *pivot);
-/* An entry of the table in a label: "standard" for a text, "degree 2" for a number; nothing where the parameter does not apply.
- * Returns text. */
-const char *gx_pivot_label(const struct gx_pivot *pivot, size_t column, size_t row, char text[GX_PIVOT_LABEL]);
 /* An entry of the table as a number; NaN: null or text. */
 double gx_pivot_number(const struct gx_pivot *pivot, long table_row, size_t column);
 /* Whether orders of values[v] have a meaning. */

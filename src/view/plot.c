@@ -7,25 +7,21 @@
 #include <string.h>
 
 #include <gridcross/compare.h>
-#include <gridcross/status.h>
 #include <gridcross/store.h>
 
 #include "axes.h"
 #include "curve.h"
 #include "figure.h"
+#include "left_out.h"
 #include "pivot.h"
 #include "sheet.h"
-
-enum { COLOURS = 7 }; /* that gnuplot.c has */
 
 struct sketch {
   const struct gx_plot *plot;
   struct gx_pivot *pivot;
   struct gx_figure figure;
-  size_t point;              /* rows of figure.data in use */
-  size_t ended[GX_STATUSES]; /* cases left out, by how they ended */
-  size_t empty;              /* cases left out: no number */
-  size_t *colour, *style;    /* [pivot->columns], owned */
+  struct gx_left_out left_out;
+  size_t *colour, *style; /* [pivot->columns], owned */
   size_t styles;
 };
 
@@ -43,46 +39,19 @@ static void sketch_free(struct sketch *sketch)
   free(sketch->style);
 }
 
-/* Whether the entry may be drawn; if not, counts why. */
-static bool drawable(struct sketch *sketch, long table_row, size_t column)
-{
-  const struct gx_table *table = sketch->pivot->table;
-  if (gx_pivot_ok(sketch->pivot, table_row, column)) return true;
-  struct gx_value status = gx_table_get(table, (size_t)table_row, (size_t)gx_table_find(table, "result.status"));
-  for (int s = 0; s < GX_STATUSES; s++) sketch->ended[s] += !strcmp(status.text, gx_status_name(s));
-  return false;
-}
-
-static void tell_left_out(const struct sketch *sketch, FILE *errors)
-{
-  size_t count = 0;
-  const char *gap = "";
-  for (int s = 0; s < GX_STATUSES; s++) count += sketch->ended[s];
-  if (count) fprintf(errors, "note: %zu case%s left out: ", count, count == 1 ? " is" : "s are");
-  for (int s = 0; s < GX_STATUSES; s++) {
-    if (!sketch->ended[s]) continue;
-    fprintf(errors, "%s%zu %s", gap, sketch->ended[s], gx_status_name(s));
-    gap = ", ";
-  }
-  if (count) putc('\n', errors);
-  if (sketch->empty) fprintf(errors, "note: %zu case%s no value there\n", sketch->empty, sketch->empty == 1 ? " has" : "s have");
-}
-
 /* Labels of the pivot's column, and of the row where that tells cases apart. */
 static char *line_label(const struct sketch *sketch, size_t column, bool row_too, size_t row)
 {
   const struct gx_pivot *pivot = sketch->pivot;
-  char text[GX_PIVOT_LABEL];
-  char *label = calloc(pivot->axes + 1, GX_PIVOT_LABEL + 2);
+  char text[GX_SHEET_LABEL];
+  char *label = calloc(pivot->axes + 1, GX_SHEET_LABEL + 2);
   for (size_t a = 0; label && a < pivot->axes + row_too; a++) {
     bool across = a < pivot->axes;
-    gx_pivot_label(pivot, across ? pivot->axis[a] : pivot->row_axis,
+    gx_sheet_label(pivot->table, across ? pivot->axis[a] : pivot->row_axis,
                    across ? pivot->column_sample[column] : pivot->row_sample[row], text);
     if (*text && *label) strcat(label, ", ");
     strcat(label, text);
   }
-  for (char *c = label; c && *c; c++) /* gnuplot reads the data by lines */
-    if ((unsigned char)*c < ' ') *c = ' ';
   return label;
 }
 
@@ -116,7 +85,7 @@ static void choose_coloured(const struct sketch *sketch, bool *coloured)
     coloured[a] = true;
     size_t count = number_columns(pivot, coloured, sketch->colour);
     coloured[a] = false;
-    if (count <= most || count > COLOURS) continue;
+    if (count <= most || count > GX_FIGURE_COLOURS) continue;
     most = count;
     best = a;
   }
@@ -141,41 +110,17 @@ static int choose_styles(struct sketch *sketch)
   return failed ? -1 : 0;
 }
 
-static int create_data(struct sketch *sketch, size_t rows, const struct gx_column *x, const struct gx_column *y)
-{
-  struct gx_figure *figure = &sketch->figure;
-  size_t lines = sketch->pivot->columns * sketch->pivot->rows + 1;
-  if (!(figure->line = calloc(lines + 1, sizeof *figure->line))) return -1;
-  if (!(figure->data = gx_table_create(GX_FIGURE_COLUMNS, rows))) return -1;
-  return gx_table_column(figure->data, GX_FIGURE_LINE, "line", "", GX_INTEGER) ||
-         gx_table_column(figure->data, GX_FIGURE_X, x->name, x->unit, x->type) ||
-         gx_table_column(figure->data, GX_FIGURE_Y, y->name, y->unit, y->type) ||
-         gx_table_column(figure->data, GX_FIGURE_LABEL, "label", "", GX_TEXT);
-}
-
-/* A point of the line that is last so far. */
-static int add_point(struct sketch *sketch, struct gx_value x, struct gx_value y)
-{
-  struct gx_table *data = sketch->figure.data;
-  struct gx_figure_line *line = &sketch->figure.line[sketch->figure.lines - 1];
-  size_t row = sketch->point++;
-  line->count++;
-  return gx_table_set(data, row, GX_FIGURE_LINE, (struct gx_value){.type = GX_INTEGER, .integer = (long)sketch->figure.lines}) ||
-         gx_table_set(data, row, GX_FIGURE_X, x) || gx_table_set(data, row, GX_FIGURE_Y, y) ||
-         gx_table_set(data, row, GX_FIGURE_LABEL, (struct gx_value){.type = GX_TEXT, .text = line->label});
-}
-
 /* What a paper prints, as a line of its own. */
 static int add_printed(struct sketch *sketch)
 {
   const struct gx_plot *plot = sketch->plot;
   if (!plot->points) return 0;
-  struct gx_figure_line *line = &sketch->figure.line[sketch->figure.lines++];
-  *line = (struct gx_figure_line){.label = strdup("printed"), .first = sketch->point, .order = NAN, .printed = true};
-  int failed = !line->label;
+  struct gx_figure_line *line = gx_figure_begin(&sketch->figure, strdup("printed"));
+  int failed = !line;
+  if (line) line->style = GX_FIGURE_PRINTED;
   for (size_t i = 0; i < plot->points && !failed; i++)
-    failed = add_point(sketch, (struct gx_value){.type = GX_REAL, .real = plot->point[i].x},
-                       (struct gx_value){.type = GX_REAL, .real = plot->point[i].y});
+    failed = gx_figure_add(&sketch->figure, (struct gx_value){.type = GX_REAL, .real = plot->point[i].x},
+                           (struct gx_value){.type = GX_REAL, .real = plot->point[i].y});
   return failed;
 }
 
@@ -183,39 +128,12 @@ static int begin_line(struct sketch *sketch, size_t column, bool row_too, size_t
 {
   size_t colour = sketch->colour[column], style = sketch->style[column] * (row_too ? sketch->pivot->rows : 1) + row_too * row;
   bool one_style = sketch->styles * (row_too ? sketch->pivot->rows : 1) == 1;
-  sketch->figure.line[sketch->figure.lines++] = (struct gx_figure_line){
-      .label = line_label(sketch, column, row_too, row),
-      .first = sketch->point,
-      .colour = (int)(colour % COLOURS),
-      .marker = (int)(one_style ? colour : style + colour / COLOURS),
-      .dash = (int)(one_style ? colour / COLOURS : style),
-      .order = NAN,
-      .nyquist = NAN,
-  };
-  return sketch->figure.line[sketch->figure.lines - 1].label ? 0 : -1;
-}
-
-static void drop_empty_line(struct sketch *sketch)
-{
-  struct gx_figure_line *line = &sketch->figure.line[sketch->figure.lines - 1];
-  if (line->count) return;
-  free(line->label);
-  sketch->figure.lines--;
-}
-
-/* Logarithmic where every value is positive and the greatest exceeds the least by this factor. `from`: points of each line that
- * do not count. */
-static struct gx_figure_axis axis_of(const struct gx_figure *figure, size_t column, double factor, size_t from)
-{
-  struct gx_figure_axis axis = {.least = INFINITY, .most = -INFINITY};
-  for (size_t i = 0; i < figure->lines; i++)
-    for (size_t p = figure->line[i].count > from ? from : 0; p < figure->line[i].count; p++) {
-      double value = gx_figure_number(figure, figure->line[i].first + p, column);
-      axis.least = fmin(axis.least, value);
-      axis.most = fmax(axis.most, value);
-    }
-  axis.log = axis.least > 0 && axis.most >= factor * axis.least;
-  return axis;
+  struct gx_figure_line *line = gx_figure_begin(&sketch->figure, line_label(sketch, column, row_too, row));
+  if (!line) return -1;
+  line->colour = (int)(colour % GX_FIGURE_COLOURS);
+  line->marker = (int)(one_style ? colour : style + colour / GX_FIGURE_COLOURS);
+  line->dash = (int)(one_style ? colour / GX_FIGURE_COLOURS : style);
+  return 0;
 }
 
 static double last_y(const struct gx_figure *figure, const struct gx_figure_line *line)
@@ -263,32 +181,33 @@ static bool numeric(const struct gx_table *table, size_t column, const char *opt
 static int fill_lines(struct sketch *sketch, size_t x, size_t y)
 {
   const struct gx_pivot *pivot = sketch->pivot;
-  int failed = create_data(sketch, pivot->table->rows + sketch->plot->points, &pivot->table->column[x], &pivot->table->column[y]);
+  size_t points = pivot->table->rows + sketch->plot->points;
+  int failed = gx_figure_start(&sketch->figure, pivot->columns + 1, points, &pivot->table->column[x], &pivot->table->column[y]);
   for (size_t c = 0; c < pivot->columns && !failed; c++) {
     size_t last = 0;
     failed = begin_line(sketch, c, false, 0);
     for (size_t r = 0; r < pivot->rows && !failed; r++) {
       long at = pivot->cell[r * pivot->columns + c];
-      if (at < 0 || !drawable(sketch, at, y)) continue;
+      if (at < 0 || (!gx_pivot_ok(pivot, at, y) && !gx_left_out_try(&sketch->left_out, pivot->table, (size_t)at))) continue;
       if (isnan(gx_pivot_number(pivot, at, x)) || isnan(gx_pivot_number(pivot, at, y))) {
-        sketch->empty++;
+        sketch->left_out.empty++;
         continue;
       }
-      failed = add_point(sketch, gx_table_get(pivot->table, (size_t)at, x), gx_table_get(pivot->table, (size_t)at, y));
+      failed =
+          gx_figure_add(&sketch->figure, gx_table_get(pivot->table, (size_t)at, x), gx_table_get(pivot->table, (size_t)at, y));
       last = r;
     }
     if (failed) break;
     if (x == pivot->row_axis) sketch->figure.line[sketch->figure.lines - 1].order = gx_pivot_order(pivot, 0, last, c);
-    drop_empty_line(sketch);
+    gx_figure_end(&sketch->figure);
   }
   if (!failed && sketch->figure.lines) failed = add_printed(sketch);
-  if (!failed) sketch->figure.data->rows = sketch->point;
   return failed;
 }
 
 static enum gx_plot_status draw(struct sketch *sketch, FILE *errors)
 {
-  tell_left_out(sketch, errors);
+  gx_left_out_tell(&sketch->left_out, errors);
   if (sketch->figure.lines) return gx_figure_draw(&sketch->figure, sketch->plot->output, errors);
   fputs("gridcross: there is nothing to draw\n", errors);
   return GX_PLOT_REFUSED;
@@ -342,8 +261,8 @@ enum gx_plot_status gx_plot_lines(const struct gx_plot *plot, FILE *errors)
       struct gx_figure *figure = &sketch.figure;
       bool ordered = along && gx_pivot_ordered(sketch.pivot, 0);
       figure->few_x = along;
-      figure->x = axis_of(figure, GX_FIGURE_X, ordered ? 2 : 10, 0);
-      figure->y = axis_of(figure, GX_FIGURE_Y, ordered ? 2 : 10, 0);
+      figure->x = gx_figure_range(figure, GX_FIGURE_X, ordered ? 2 : 10, 0);
+      figure->y = gx_figure_range(figure, GX_FIGURE_Y, ordered ? 2 : 10, 0);
       for (size_t i = 0; i < figure->lines; i++)
         if (!figure->x.log || !figure->y.log) figure->line[i].order = NAN;
       choose_triangle(figure);
@@ -370,7 +289,7 @@ static int read_curves(struct sketch *sketch, const struct gx_curves *kind, stru
   long id = gx_table_find(pivot->table, "case");
   for (size_t i = 0; i < pivot->rows * pivot->columns; i++) {
     long at = pivot->cell[i];
-    if (at < 0 || id < 0 || !drawable(sketch, at, (size_t)id)) continue;
+    if (at < 0 || id < 0 || !gx_left_out_try(&sketch->left_out, pivot->table, (size_t)at)) continue;
     size_t row = (size_t)at, study = study_of(sketch->plot, &row);
     curve[i] = kind->read(sketch->plot, study, row, name, errors);
     if (!curve[i].table || !numeric(curve[i].table, 1, "--y", errors)) return -1;
@@ -388,7 +307,7 @@ static int fill_curves(struct sketch *sketch, const struct gx_curve *curve)
     samples += curve[i].table->rows;
     any = curve[i].table;
   }
-  int failed = any ? create_data(sketch, samples, &any->column[0], &any->column[1]) : 0;
+  int failed = any ? gx_figure_start(&sketch->figure, cells, samples, &any->column[0], &any->column[1]) : 0;
   for (size_t c = 0; c < pivot->columns && any && !failed; c++)
     for (size_t r = 0; r < pivot->rows && !failed; r++) {
       const struct gx_table *one = curve[r * pivot->columns + c].table;
@@ -396,12 +315,12 @@ static int fill_curves(struct sketch *sketch, const struct gx_curve *curve)
       failed = begin_line(sketch, c, pivot->rows > 1, r);
       sketch->figure.line[sketch->figure.lines - 1].nyquist = curve[r * pivot->columns + c].nyquist;
       for (size_t k = 0; k < one->rows && !failed; k++)
-        if (gx_table_get(one, k, 1).type != GX_NULL) failed = add_point(sketch, gx_table_get(one, k, 0), gx_table_get(one, k, 1));
+        if (gx_table_get(one, k, 1).type != GX_NULL)
+          failed = gx_figure_add(&sketch->figure, gx_table_get(one, k, 0), gx_table_get(one, k, 1));
       if (failed) continue;
-      sketch->empty += !sketch->figure.line[sketch->figure.lines - 1].count;
-      drop_empty_line(sketch);
+      sketch->left_out.empty += !sketch->figure.line[sketch->figure.lines - 1].count;
+      gx_figure_end(&sketch->figure);
     }
-  if (any && !failed) sketch->figure.data->rows = sketch->point;
   return failed;
 }
 
@@ -421,9 +340,9 @@ static enum gx_plot_status plot_curves(const struct gx_plot *plot, const struct 
       status = no_memory(errors);
     } else {
       sketch.figure.dense = true;
-      sketch.figure.x = axis_of(&sketch.figure, GX_FIGURE_X, kind->in_time ? INFINITY : 10, 0);
-      sketch.figure.y =
-          axis_of(&sketch.figure, GX_FIGURE_Y, gx_curve_is_error(plot->y ? plot->y : kind->name) ? 10 : INFINITY, kind->in_time);
+      sketch.figure.x = gx_figure_range(&sketch.figure, GX_FIGURE_X, kind->in_time ? INFINITY : 10, 0);
+      sketch.figure.y = gx_figure_range(&sketch.figure, GX_FIGURE_Y,
+                                        gx_curve_is_error(plot->y ? plot->y : kind->name) ? 10 : INFINITY, kind->in_time);
       status = draw(&sketch, errors);
     }
   }

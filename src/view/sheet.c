@@ -47,6 +47,20 @@ const char *gx_sheet_text(const char *column, struct gx_value value, char buffer
   return buffer;
 }
 
+const char *gx_sheet_label(const struct gx_table *table, size_t column, size_t row, char text[GX_SHEET_LABEL])
+{
+  char buffer[GX_NUMBER_LENGTH];
+  const char *name = table->column[column].name;
+  struct gx_value value = gx_table_get(table, row, column);
+  if (value.type == GX_NULL)
+    text[0] = '\0';
+  else if (value.type == GX_TEXT)
+    snprintf(text, GX_SHEET_LABEL, "%s", value.text);
+  else
+    snprintf(text, GX_SHEET_LABEL, "%s %s", gx_sheet_leaf(name), gx_sheet_text(name, value, buffer));
+  return text;
+}
+
 int gx_sheet_width(const char *text)
 {
   int width = 0;

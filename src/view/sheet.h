@@ -20,6 +20,11 @@ void gx_sheet_pad(const char *text, int width, bool right, FILE *out);
 /* Columns of numbers are right-aligned; columns that hold nothing but null are left out. Returns 0, or -1 when
  * memory runs out. */
 int gx_sheet_print(const struct gx_table *table, FILE *out);
+enum { GX_SHEET_LABEL = 160 };
+
+/* An entry of a table in a label: "standard" for a text, "degree 2" for a number; nothing where the parameter does not apply.
+ * Returns text. */
+const char *gx_sheet_label(const struct gx_table *table, size_t column, size_t row, char text[GX_SHEET_LABEL]);
 /* The last part of a dotted path. */
 const char *gx_sheet_leaf(const char *path);
 

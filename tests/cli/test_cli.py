@@ -13,7 +13,7 @@ import tempfile
 import unittest
 
 PROGRAM, ROOT = (pathlib.Path(a).resolve() for a in sys.argv[1:3])
-COMMANDS = ["run", "check", "init", "compare", "plot", "spectrum", "list", "balance"]
+COMMANDS = ["run", "check", "init", "compare", "plot", "advise", "spectrum", "list", "balance"]
 TOPICS = ["spaces", "bases", "clocks", "problems", "materials", "parameters"]
 STUDY = """title: small
 problem: {name: bar-neo-hookean}
@@ -81,6 +81,7 @@ class Usage(Case):
             (["run"], "missing FILE.yaml"), (["run", "a", "b"], "too many"), (["run", "--jsno", "small.yaml"], "--json"),
             (["run", "-x", "small.yaml"], "no option -x"), (["run", "small.yaml", "-j"], "missing"),
             (["run", "small.yaml", "-j", "0"], "-j"), (["run", "small.yaml", "-j", "2x"], "2x"),
+            (["run", "small.yaml", "--repeats", "0"], "--repeats"), (["run", "small.yaml", "--repeats=1.5"], "'1.5'"),
             (["run", "small.yaml", "--csv=1"], "--csv=1"), (["run", "small.yaml", "--csv", "--json"], "not both"),
             (["run", "-"], "-o"), (["run", "small.yaml", "-o", ""], "-o"), (["run", "none.yaml"], "none.yaml"),
             (["run", "small.yaml", "--set", "mesh.cell=3"], "mesh.cells"), (["check", "none.yaml"], "none.yaml"),
@@ -150,6 +151,20 @@ class Run(Case):
         self.assertEqual(self.study("a"), self.study("b"))
         plain = [self.call("run", "small.yaml", "--no-timing", f"-j{j}").stdout for j in (1, 3)]
         self.assertEqual(plain[0], plain[1])
+
+    def test_repeats_time_and_change_no_result(self):
+        self.call("run", "small.yaml", "-o", "a", "-q")
+        self.call("run", "small.yaml", "-o", "b", "-q", "--repeats", "3")
+        self.assertEqual(self.study("a"), self.study("b"))
+        once, thrice = (list(csv.DictReader((self.dir / d / "timing.csv").read_text().splitlines())) for d in "ab")
+        self.assertEqual([r["repeats"] for r in once], ["0"] * 12)
+        self.assertEqual([r["repeats"] for r in thrice], ["3"] * 12)
+        steps = [int(r["result.steps"]) * int(r["mesh.cells"]) * 4 for r in
+                 csv.DictReader((self.dir / "b" / "table.csv").read_text().splitlines())]
+        for row, count in zip(thrice, steps, strict=True):
+            self.assertAlmostEqual(1e9 * float(row["seconds"]) / count / float(row["ns_per_particle_step"]), 1, 9)
+        failing = ["run", "small.yaml", "--set", "time.cfl=3", "--set", "mesh.cells=16", "--no-timing", "-q"]
+        self.assertEqual(self.call(*failing).stdout, self.call(*failing, "--repeats=2").stdout)
 
     def test_standard_input(self):
         self.call("run", "small.yaml", "-o", "a", "-q")

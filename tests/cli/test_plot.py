@@ -267,6 +267,61 @@ class Hostile(Case):
         self.assertEqual((self.dir / "mine.gp").read_text(), "plot sin(x)\n")
 
 
+class Front(Case):
+    def test_every_case_and_the_front(self):
+        self.assertEqual(self.plot("--front", "-o", "fig.svg").stderr, "")
+        rows, error = self.rows("fig.csv"), "result.displacement.max.rms"
+        self.assertEqual(list(rows[0]), ["line", "result.seconds", error, "label"])
+        seconds = {r["case"]: r["seconds"] for r in self.rows("small.study/timing.csv")}
+        cases = sorted((float(seconds[c["case"]]), float(c[error]), c["method.space"]) for c in self.table())
+        drawn = [(float(r["result.seconds"]), float(r[error]), r["label"]) for r in rows]
+        self.assertEqual(sorted(d for d in drawn if d[2] != "front"), cases)
+        front, best = [], math.inf
+        for cost, err, _ in cases:
+            if err < best:
+                best = err
+                front.append((cost, err, "front"))
+        self.assertEqual([d for d in drawn if d[2] == "front"], front)
+        texts = self.texts("fig.svg")
+        for expected in ("small", "result.seconds [s]", error + " [m]", "standard", "moving-mesh", "front"):
+            self.assertIn(expected, texts)
+        script = (self.dir / "fig.gp").read_text()
+        self.assertEqual(script.count(" with points "), 2)
+        self.assertEqual(script.count(" with steps "), 1)
+        for axis in "xy":
+            self.assertIn(f"set logscale {axis}\n", script)
+
+    def test_by_y_x_and_where(self):
+        self.plot("--front", "--by", "mesh.cells", "--by", "method.degree", "--y", "result.velocity.final.rms", "--x", "result.steps",
+                  "--where", "method.space=standard", "-o", "fig.svg")
+        rows = self.rows("fig.csv")
+        self.assertEqual(list(rows[0])[1:3], ["result.steps", "result.velocity.final.rms"])
+        labels = [f"cells {n}, degree {k}" for n in (8, 16, 32) for k in (1, 2)]
+        self.assertEqual([r["label"] for r in rows][:6], labels)
+        self.assertEqual({r["label"] for r in rows} - set(labels), {"front"})
+
+    def test_cases_left_out_are_counted(self):
+        self.run_study("small.yaml", "--set", "time.cfl=[0.4, 1.5, 6]", "-o", "wild.study")
+        done = self.call("plot", "wild.study", "--front", "-o", "fig.svg")
+        self.assertIn("are left out: ", done.stderr)
+        self.assertIn("left out: dt is above the stable step", done.stderr)
+
+    def test_one_case(self):
+        self.run_study("small.yaml", "--set", "mesh.cells=8", "--set", "method.space=standard", "--set", "method.degree=2", "-o", "one.study")
+        self.assertEqual(self.call("plot", "one.study", "--front", "-o", "fig.svg").stderr, "")
+        self.assertEqual([r["label"] for r in self.rows("fig.csv")], ["", "front"])
+
+    def test_refusals(self):
+        (self.dir / "small.study/timing.csv").unlink()
+        for args, hint in [(["--front"], "timing.csv"), (["--front", "history"], "leave out history or --front"),
+                           (["--front", "--by", "method.spce"], "did you mean method.space?"),
+                           (["--front", "--x", "result.status"], "not a number"), (["--front", "--y", "result.stauts"], "result.status"),
+                           (["--front", "--where", "mesh.cells=9"], "there are: 8 16 32")]:
+            with self.subTest(args=args):
+                self.assertIn(hint, self.plot(*args, "-o", "fig.svg", code=2).stderr)
+        self.assertFalse((self.dir / "fig.csv").exists())
+
+
 class Messages(Case):
     def test_usage(self):
         for args, hint in [

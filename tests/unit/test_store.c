@@ -212,6 +212,17 @@ static void damaged_files_are_refused(void **state)
   refuse(f->other);
   refuse(f->directory);
   refuse("/nowhere/study.h5");
+  static const char *const ours[] = {"study", "result.seconds", "result.ns_per_particle_step"};
+  snprintf(f->other, sizeof f->other, "%s/study.h5", f->directory);
+  for (size_t i = 0; i < sizeof ours / sizeof *ours; i++) { /* columns that reading adds */
+    table = example_table();
+    gx_table_column(table, 1, ours[i], "", GX_INTEGER);
+    assert_int_equal(gx_hdf5_write(f->other, &f->study, f->results, table, stderr), 0);
+    gx_table_free(table);
+    FILE *quiet = tmpfile();
+    assert_null(gx_store_read(f->directory, quiet));
+    fclose(quiet);
+  }
 }
 
 static void a_study_is_stored_and_read_with_its_timing(void **state)
@@ -220,6 +231,7 @@ static void a_study_is_stored_and_read_with_its_timing(void **state)
   char directory[128];
   snprintf(directory, sizeof directory, "%s/new/study", f->directory);
   struct gx_store_run run = {.command = "gridcross run 'a b'", .seconds = 2};
+  f->study.repeats = 3;
   for (int twice = 0; twice < 2; twice++) {
     assert_int_equal(gx_store_prepare(directory, stderr), 0);
     assert_int_equal(gx_store_write(directory, &f->study, f->results, &run, stderr), 0);
@@ -234,8 +246,20 @@ static void a_study_is_stored_and_read_with_its_timing(void **state)
   size_t length;
   snprintf(path, sizeof path, "%s/timing.csv", directory);
   char *bytes = contents(path, &length);
-  assert_string_equal(bytes, "case,seconds,ns_per_particle_step\n0123456789abcdef,1.5,20.25\nfedcba9876543210,0,0\n");
+  assert_string_equal(bytes, "case,seconds,ns_per_particle_step,repeats\n0123456789abcdef,1.5,20.25,3\nfedcba9876543210,0,0,3\n");
   free(bytes);
+  assert_int_equal(gx_store_read_repeats(directory), 3);
+  /* written by others: a time that is none, and a row of fewer repeats */
+  const char foreign[] = "case,seconds,ns_per_particle_step,repeats\n0123456789abcdef,nan,20.25,3\nfedcba9876543210,2,3,2\n";
+  put(path, foreign, sizeof foreign - 1);
+  table = gx_store_read(directory, stderr);
+  long seconds = gx_table_find(table, "result.seconds");
+  assert_int_equal(gx_table_get(table, 0, (size_t)seconds).type, GX_NULL);
+  NEAR(gx_table_get(table, 1, (size_t)seconds).real, 2, 0);
+  gx_table_free(table);
+  assert_int_equal(gx_store_read_repeats(directory), 2);
+  unlink(path);
+  assert_int_equal(gx_store_read_repeats(directory), 0);
   snprintf(path, sizeof path, "%s/run.json", directory);
   bytes = contents(path, &length);
   assert_non_null(strstr(bytes, "\"command\": \"gridcross run 'a b'\", \"seconds\": 2}"));

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cases that a figure or an advice leaves out, and why. */
+#ifndef GRIDCROSS_VIEW_LEFT_OUT_H
+#define GRIDCROSS_VIEW_LEFT_OUT_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+#include <gridcross/status.h>
+#include <gridcross/table.h>
+
+/* Starts as {0}. */
+struct gx_left_out {
+  size_t ended[GX_STATUSES]; /* by how they ended */
+  size_t empty;              /* no number, counted by the caller */
+};
+
+/* Whether the case of a row ended ok; if not, counts it. A table without result.status holds nothing but such cases. */
+bool gx_left_out_try(struct gx_left_out *left_out, const struct gx_table *table, size_t row);
+/* One line each for cases that did not end ok and for empty ones. */
+void gx_left_out_tell(const struct gx_left_out *left_out, FILE *errors);
+
+#endif
