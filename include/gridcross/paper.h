@@ -26,7 +26,7 @@ struct gx_paper_row {
 struct gx_paper_item {
   const char *paper, *item;
   const char *run_file;           /* text of the run file */
-  const char *plot;               /* options of `gridcross plot` for an item that is a figure, else "" */
+  const char *plot;               /* options of `gridcross plot`, one figure a line; "": none */
   const struct gx_paper_row *row; /* [rows] */
   size_t rows;
 };

@@ -2,6 +2,7 @@
 /* gridcross paper: published tables and figures beside ours. */
 #include "command.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -108,32 +109,40 @@ static long find_points(const struct gx_paper_item *item, const struct gx_option
   return x && y ? (long)gx_paper_points(item, table, x, y, *point) : 0;
 }
 
-/* Draws as `gridcross plot STUDY <the item's options> -o FIGURE` does, printed values over ours. */
-static int draw(const struct session *session, size_t index, const char *study, const struct gx_table *table)
+/* Draws as `gridcross plot STUDY <words> -o FIGURE` does, printed values over ours. words, study, figure: written to. */
+static int draw(const struct gx_paper_item *item, char *words, char *study, char *figure, const struct gx_table *table)
 {
   enum { WORDS = 32 };
-  char *figure = place(session, index, ".svg"), *words = strdup(session->item[index]->plot), *rest = NULL;
-  char program[] = "gridcross", plot[] = "plot", to[] = "-o", *directory = strdup(study);
-  char *argv[WORDS + 6] = {program, plot, directory};
-  int argc = 3, code = GX_EXIT_FAILED;
-  if (figure && words && directory) {
-    for (char *word = strtok_r(words, " \n", &rest); word && argc < WORDS; word = strtok_r(NULL, " \n", &rest))
-      argv[argc++] = word;
-    argv[argc++] = to;
-    argv[argc++] = figure;
-    struct gx_options options;
-    struct gx_plot_point *point = NULL;
-    code = gx_options_parse(&options, &gx_command_plot, argc, argv, stderr);
-    long points = code ? 0 : find_points(session->item[index], &options, table, &point);
-    if (!code) code = points < 0 ? gx_command_no_memory() : gx_command_plot_figure(&options, (size_t)points, point);
-    gx_options_free(&options);
-    free(point);
-  } else {
-    gx_command_no_memory();
+  char program[] = "gridcross", plot[] = "plot", to[] = "-o", *rest = NULL;
+  char *argv[WORDS + 2] = {program, plot, study};
+  int argc = 3;
+  for (char *word = strtok_r(words, " ", &rest); word && argc < WORDS; word = strtok_r(NULL, " ", &rest)) argv[argc++] = word;
+  argv[argc++] = to;
+  argv[argc++] = figure;
+  struct gx_options options;
+  struct gx_plot_point *point = NULL;
+  int code = gx_options_parse(&options, &gx_command_plot, argc, argv, stderr);
+  long points = code ? 0 : find_points(item, &options, table, &point);
+  if (!code) code = points < 0 ? gx_command_no_memory() : gx_command_plot_figure(&options, (size_t)points, point);
+  gx_options_free(&options);
+  free(point);
+  return code;
+}
+
+/* One figure a line of the item's plot: <item>.svg, <item>-2.svg, ... */
+static int draw_all(const struct session *session, size_t index, char *study, const struct gx_table *table)
+{
+  char *lines = strdup(session->item[index]->plot), *rest = NULL;
+  int code = lines ? GX_EXIT_DONE : gx_command_no_memory(), number = 1;
+  for (char *line = lines ? strtok_r(lines, "\n", &rest) : NULL; line && !code; line = strtok_r(NULL, "\n", &rest)) {
+    char ending[24];
+    snprintf(ending, sizeof ending, number > 1 ? "-%d.svg" : ".svg", number);
+    char *figure = place(session, index, ending);
+    code = figure ? draw(session->item[index], line, study, figure, table) : gx_command_no_memory();
+    number++;
+    free(figure);
   }
-  free(figure);
-  free(words);
-  free(directory);
+  free(lines);
   return code;
 }
 
@@ -145,7 +154,7 @@ static int keep(const struct session *session, size_t index, const struct gx_stu
   const struct gx_store_run about = {.command = line};
   if (!code && (gx_store_prepare(directory, stderr) || gx_store_write(directory, study, results, &about, stderr)))
     code = GX_EXIT_FAILED;
-  if (!code && *session->item[index]->plot) code = draw(session, index, directory, table);
+  if (!code) code = draw_all(session, index, directory, table);
   free(directory);
   free(line);
   return code;
@@ -175,11 +184,36 @@ static int set_text(struct gx_table *sheet, size_t row, size_t column, const cha
   return *text ? gx_table_set(sheet, row, column, (struct gx_value){.type = GX_TEXT, .text = text}) : 0;
 }
 
-/* As papers print them: 1.73e-4, but 0.0173 and 173. */
-static const char *short_number(struct gx_value value, char text[GX_NUMBER_LENGTH])
+/* Significant digits of a number of the paper, or of the figure that a gate names last: 5 of "1.7895e-2". */
+static int digits_of(const char *text)
 {
-  double size = value.type == GX_REAL ? fabs(value.real) : 0;
-  return gx_sheet_text(size >= 0.01 && size < 1e5 ? "result.number" : "result.energy.number", value, text);
+  int digits = 0;
+  const char *word = strrchr(text, ' ');
+  for (const char *c = word ? word + 1 : text; *c && *c != 'e' && *c != 'E'; c++)
+    digits += isdigit((unsigned char)*c) && (digits || *c != '0');
+  return digits;
+}
+
+/* With a digit more than the paper has, as papers print them: 1.731e-4, but 0.01731 and 173.1. */
+static const char *short_number(struct gx_value value, const struct gx_paper_row *row, char text[GX_NUMBER_LENGTH])
+{
+  int digits = 3, more = digits_of(row->printed), gate = strstr(row->gate, " of ") ? digits_of(row->gate) : 0;
+  if (value.type == GX_TEXT) return value.text;
+  if (gate > more) more = gate;
+  if (more + 1 > digits) digits = more + 1 < 8 ? more + 1 : 8;
+  double size = fabs(value.real);
+  bool plain = size == 0 || (size >= 0.01 && size < 1e5);
+  snprintf(text, GX_NUMBER_LENGTH, plain ? "%.*g" : "%.*e", plain ? digits : digits - 1, value.real);
+  gx_sheet_shorten(text);
+  return text;
+}
+
+/* 1.0000 where four decimals say it. */
+static const char *ratio_text(struct gx_value ratio, char text[GX_NUMBER_LENGTH])
+{
+  snprintf(text, GX_NUMBER_LENGTH, fabs(ratio.real) >= 0.1 && fabs(ratio.real) < 10 ? "%.4f" : "%.3g", ratio.real);
+  gx_sheet_shorten(text);
+  return text;
 }
 
 /* Numbers of the paper stand as they are printed. */
@@ -197,9 +231,9 @@ static struct gx_table *brief(const struct gx_paper_item *item, const struct gx_
     char text[GX_NUMBER_LENGTH];
     size_t note = note_of(table, reason, r);
     failed = set_text(sheet, r, ROW, row->row) || set_text(sheet, r, QUANTITY, row->quantity) ||
-             (our_value.type != GX_NULL && set_text(sheet, r, OURS, short_number(our_value, text))) ||
+             (our_value.type != GX_NULL && set_text(sheet, r, OURS, short_number(our_value, row, text))) ||
              set_text(sheet, r, PRINTED, row->printed) || set_text(sheet, r, CORRECTED, row->corrected) ||
-             (our_ratio.type != GX_NULL && set_text(sheet, r, RATIO, gx_sheet_text("result.ratio", our_ratio, text))) ||
+             (our_ratio.type != GX_NULL && set_text(sheet, r, RATIO, ratio_text(our_ratio, text))) ||
              set_text(sheet, r, GATE, row->gate) ||
              (note && gx_table_set(sheet, r, NOTE, (struct gx_value){.type = GX_INTEGER, .integer = (long)note}));
   }

@@ -133,7 +133,7 @@ static void put_axis(const char *name, const struct gx_figure_axis *axis, size_t
  * higher than the plot it would drop the end. */
 static void put_layout(const struct gx_figure *figure, const char *ending, FILE *out)
 {
-  enum { LEFT = 90, RIGHT = 640, GAP = 20, LINE = 21, SAMPLE = 90, LETTER = 8 };
+  enum { LEFT = 105, RIGHT = 655, GAP = 20, LINE = 21, SAMPLE = 90, LETTER = 8 };
   bool key = figure->lines > 1 || *figure->line[0].label;
   size_t widest = 0;
   for (size_t i = 0; i < figure->lines; i++) {

@@ -20,8 +20,7 @@ const char *gx_sheet_leaf(const char *path)
   return dot ? dot + 1 : path;
 }
 
-/* 1.23e-05 to 1.23e-5 */
-static void shorten_exponent(char *text)
+void gx_sheet_shorten(char *text)
 {
   char *sign = strpbrk(text, "eE");
   if (!sign || !sign[1]) return;
@@ -39,10 +38,10 @@ const char *gx_sheet_text(const char *column, struct gx_value value, char buffer
     snprintf(buffer, GX_NUMBER_LENGTH, "%ld", value.integer);
   } else if (strncmp(column, "result.", 7) != 0) {
     gx_value_real(value.real, buffer);
-    shorten_exponent(buffer);
+    gx_sheet_shorten(buffer);
   } else {
     snprintf(buffer, GX_NUMBER_LENGTH, gx_sheet_error_like(column) && value.real != 0 ? "%.2e" : "%.4g", value.real);
-    shorten_exponent(buffer);
+    gx_sheet_shorten(buffer);
   }
   return buffer;
 }

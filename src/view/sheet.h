@@ -13,6 +13,8 @@ bool gx_sheet_error_like(const char *column);
 /* Text of a value as its column is shown: parameters in full, results by 3 or 4 digits, null as "-".
  * The answer is the buffer or the value's own text. */
 const char *gx_sheet_text(const char *column, struct gx_value value, char buffer[GX_NUMBER_LENGTH]);
+/* 1.23e-05 to 1.23e-5 */
+void gx_sheet_shorten(char *text);
 /* Characters that a terminal shows of UTF-8 text. */
 int gx_sheet_width(const char *text);
 /* Text filled with blanks to the width, at its left side when `right`. */

@@ -1,1 +1,2 @@
 history --y probe.displacement_error
+history --y probe.jump
