@@ -233,12 +233,6 @@ static double potential(struct gx_measure *measure)
   return gx_vector_sum(measure->n, measure->scratch);
 }
 
-/* term = m v^2 / 2 */
-GX_CLONES static void kinetic_terms(size_t n, const double *restrict m, const double *restrict v, double *restrict term)
-{
-  for (size_t p = 0; p < n; p++) term[p] = 0.5 * m[p] * v[p] * v[p];
-}
-
 /* term = m (half v0, or a quarter of v - v0) (a - a0) */
 GX_CLONES static void defect_terms(size_t n, bool first_order, const double *restrict m, const double *restrict v0,
                                    const double *restrict v, const double *restrict a0, const double *restrict a,
@@ -255,8 +249,7 @@ static void energies(struct gx_measure *measure, double dt, struct gx_sample *sa
   size_t n = measure->n;
   for (int d = 0; d < measure->dim; d++) {
     const double *v = measure->v.component[d];
-    kinetic_terms(n, particles->m, v, term);
-    kinetic += gx_vector_sum(n, term);
+    kinetic += 0.5 * gx_vector_square(n, particles->m, v);
     defect_terms(n, measure->clock->first_order_defect, particles->m, measure->v_before.component[d], v,
                  measure->a_before.component[d], measure->a.component[d], term);
     defect += gx_vector_sum(n, term);

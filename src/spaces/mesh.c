@@ -272,8 +272,7 @@ double gx_mesh_kinetic(const struct gx_space *space)
 {
   const struct gx_mesh *mesh = (const struct gx_mesh *)space;
   double twice = 0;
-  for (int d = 0; d < mesh->grid.dim; d++)
-    for (size_t i = 0; i < mesh->grid.stored; i++) twice += mesh->mass[i] * mesh->v[d][i] * mesh->v[d][i];
+  for (int d = 0; d < mesh->grid.dim; d++) twice += gx_vector_square(mesh->grid.stored, mesh->mass, mesh->v[d]);
   return 0.5 * twice;
 }
 

@@ -161,6 +161,12 @@ GX_CLONES void gx_transfer_scatter_force(const struct gx_weights *weights, doubl
     SPECIALISE(scatter_force, weights, T, NULL, force);
 }
 
+/* The first term of a sum starts it: compilers must not drop an addition to 0, which turns -0 into 0. */
+GX_CORE double sum_with(const bool first, double sum, double term)
+{
+  return first ? term : sum + term;
+}
+
 /* take_a: acceleration: S-sums of a; take_v: velocity: S-sums of v; take_slopes: gradient: D-sums of v. */
 GX_CORE void gather(const int dim, const int s, const struct gx_weights *w, const bool take_a, double *const *a,
                     double *const *acceleration, const bool take_v, double *const *v, double *const *velocity,
@@ -186,13 +192,13 @@ GX_CORE void gather(const int dim, const int s, const struct gx_weights *w, cons
         double row_a = 0, row_v = 0, row_g = 0;
         for (int k = 0; k < s; k++) {
           size_t node = row.node + (size_t)k;
-          if (take_a) row_a += stencil.S[0][k] * field_a[d][node];
-          if (take_v || (take_slopes && dim > 1)) row_v += stencil.S[0][k] * field_v[d][node];
-          if (take_slopes) row_g += stencil.D[0][k] * field_v[d][node];
+          if (take_a) row_a = sum_with(!k, row_a, stencil.S[0][k] * field_a[d][node]);
+          if (take_v || (take_slopes && dim > 1)) row_v = sum_with(!k, row_v, stencil.S[0][k] * field_v[d][node]);
+          if (take_slopes) row_g = sum_with(!k, row_g, stencil.D[0][k] * field_v[d][node]);
         }
-        sum_a[d] += row.W * row_a;
-        sum_v[d] += row.W * row_v;
-        sum_g[d * dim] += row.W * row_g;
+        sum_a[d] = sum_with(dim == 1, sum_a[d], row.W * row_a);
+        sum_v[d] = sum_with(dim == 1, sum_v[d], row.W * row_v);
+        sum_g[d * dim] = sum_with(dim == 1, sum_g[d * dim], row.W * row_g);
         for (int e = 1; e < dim; e++) sum_g[d * dim + e] += row.slope[e] * row_v;
       }
     }

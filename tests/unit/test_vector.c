@@ -14,6 +14,20 @@ static void sums(void **state)
   for (int n = 0; n <= MOST; n++) NEAR(gx_vector_sum((size_t)n, value), (n - 1) * n * (2 * n - 1) / 6 - 7 * n, 0);
 }
 
+static void squares(void **state)
+{
+  (void)state;
+  double weight[MOST], value[MOST], sum = 0;
+  for (int i = 0; i < MOST; i++) {
+    weight[i] = i - 3;
+    value[i] = i % 5 - 2;
+  }
+  for (int n = 0; n <= MOST; n++) {
+    NEAR(gx_vector_square((size_t)n, weight, value), sum, 0);
+    if (n < MOST) sum += (n - 3) * (n % 5 - 2) * (n % 5 - 2);
+  }
+}
+
 static void maxima(void **state)
 {
   (void)state;
@@ -31,6 +45,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(sums),
+      cmocka_unit_test(squares),
       cmocka_unit_test(maxima),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
