@@ -40,9 +40,9 @@ const struct gx_budget_column gx_budget_columns[GX_BUDGET_ENTRIES] = {
     [GX_BUDGET_L2_TIME] = {"l2.time", "m/s"},
 };
 
-/* Entries that are sums over particles; those of them that are added up stage by stage. */
-enum { SUMS = GX_BUDGET_DISPLACEMENT_REST + 1 };
+enum { SUMS = GX_BUDGET_DISPLACEMENT_REST + 1 }; /* entries that are sums over particles come first */
 
+/* Added up stage by stage. */
 static bool is_stored(int entry)
 {
   return entry < SUMS && entry != GX_BUDGET_VELOCITY_STEP && entry != GX_BUDGET_VELOCITY_SUM &&
@@ -312,13 +312,17 @@ static enum gx_status take_step(struct gx_budget *budget, struct gx_space *space
 {
   struct gx_particles *particles = budget->particles;
   struct gx_stepper *stepper = gx_stepper_create(budget->clock, space, NULL);
-  if (!stepper) return gx_status_set(&budget->outcome, GX_FAILED, -1, "out of memory for the budget");
   if (space->kind->settle) space->kind->settle(space);
+  struct gx_jump *jump = budget->jumps ? gx_jump_create(space, budget->options.cells) : NULL;
+  if (!stepper || (budget->jumps && !jump)) {
+    gx_stepper_free(stepper);
+    gx_jump_free(jump);
+    return gx_status_set(&budget->outcome, GX_FAILED, -1, "out of memory for the budget");
+  }
   for (int d = 0; d < particles->dim; d++) {
     memcpy(budget->kicked.component[d], particles->v[d], particles->n * sizeof(double));
     memcpy(budget->moved.component[d], particles->u[d], particles->n * sizeof(double));
   }
-  struct gx_jump *jump = budget->jumps ? gx_jump_create(space, budget->options.cells) : NULL;
   enum gx_status status = gx_stepper_step(stepper, t, dt);
   if (jump && status == GX_OK) value[GX_BUDGET_DISPLACEMENT_JUMP] = rms_of_jumps(jump, dt);
   gx_jump_free(jump);
@@ -338,7 +342,8 @@ static enum gx_status open_step(struct gx_budget *budget, double t)
     for (int k = 0; k < SUMS; k++)
       if (is_stored(k)) memset(budget->term[k].component[d], 0, budget->particles->n * sizeof(double));
   GX_TRY(gx_integral_place(budget->integral, t));
-  return gx_truncation_open(budget->truncation, budget->stages > 1);
+  if (!gx_truncation_open(budget->truncation, budget->stages > 1)) return GX_OK;
+  return gx_status_set(&budget->outcome, GX_FAILED, -1, "out of memory for the budget");
 }
 
 static enum gx_status take_stage(struct gx_budget *budget, int j, double t, double dt, double *value, struct gx_space **space)

@@ -48,7 +48,7 @@ void gx_truncation_free(struct gx_truncation *truncation)
   free(truncation);
 }
 
-enum gx_status gx_truncation_open(struct gx_truncation *truncation, bool leaves)
+int gx_truncation_open(struct gx_truncation *truncation, bool leaves)
 {
   const struct gx_integral *integral = truncation->integral;
   size_t n = integral->points->n;
@@ -59,10 +59,10 @@ enum gx_status gx_truncation_open(struct gx_truncation *truncation, bool leaves)
     memset(truncation->ideal.component[d], 0, n * sizeof(double));
     memcpy(truncation->X.component[d], integral->points->X[d], n * sizeof(double));
   }
-  if (!leaves || !integral->moves) return GX_OK;
+  if (!leaves || !integral->moves) return 0;
   const struct gx_posed *posed = integral->posed;
   truncation->posed = gx_problem_pose(posed->problem, &posed->options, n, truncation->X.component);
-  return truncation->posed ? GX_OK : GX_FAILED;
+  return truncation->posed ? 0 : -1;
 }
 
 double gx_truncation_acceleration(struct gx_truncation *truncation, double t, double *const *field)

@@ -10,8 +10,9 @@ struct gx_truncation;
 /* On the points of an integral, borrowed. NULL when memory runs out. */
 struct gx_truncation *gx_truncation_create(struct gx_integral *integral);
 void gx_truncation_free(struct gx_truncation *truncation);
-/* A step starts at the time at which the integral's points are. leaves: they will be placed anew before its end. */
-enum gx_status gx_truncation_open(struct gx_truncation *truncation, bool leaves);
+/* A step starts at the time at which the integral's points are. leaves: they will be placed anew before its end. -1 when memory runs
+ * out. */
+int gx_truncation_open(struct gx_truncation *truncation, bool leaves);
 /* Error of a nodal acceleration, while the integral's points are at its time t, m/s^2. */
 double gx_truncation_acceleration(struct gx_truncation *truncation, double t, double *const *field);
 /* The step adds span times the nodal acceleration that the space has at time t. */
