@@ -22,6 +22,8 @@ enum { GX_NUMBER_LENGTH = 32 };
 void gx_value_real(double value, char text[GX_NUMBER_LENGTH]);
 /* A number as double; NaN: null or text. */
 double gx_value_number(struct gx_value value);
+/* A number as value; null where it is not finite. */
+struct gx_value gx_value_from(double number);
 /* Order of two values: null, numbers ascending, texts by bytes. 0: equal. */
 int gx_value_compare(struct gx_value a, struct gx_value b);
 

@@ -20,6 +20,11 @@ double gx_value_number(struct gx_value value)
   return value.type == GX_INTEGER ? (double)value.integer : value.type == GX_REAL ? value.real : NAN;
 }
 
+struct gx_value gx_value_from(double number)
+{
+  return isfinite(number) ? (struct gx_value){.type = GX_REAL, .real = number} : (struct gx_value){.type = GX_NULL};
+}
+
 static int kind(struct gx_value value)
 {
   return value.type == GX_NULL ? 0 : value.type == GX_TEXT ? 2 : 1;

@@ -87,15 +87,10 @@ static struct gx_value text_value(const char *text)
   return (struct gx_value){.type = *text ? GX_TEXT : GX_NULL, .text = text};
 }
 
-static struct gx_value real_value(double real)
-{
-  return isfinite(real) ? (struct gx_value){.type = GX_REAL, .real = real} : (struct gx_value){.type = GX_NULL};
-}
-
 /* A number as a number, a star or a word as text. */
 static struct gx_value printed_value(const char *text)
 {
-  return isnan(number(text)) ? text_value(text) : real_value(number(text));
+  return isnan(number(text)) ? text_value(text) : gx_value_from(number(text));
 }
 
 enum column { PAPER, ITEM, ROW, QUANTITY, OURS, PRINTED, CORRECTED, RATIO, GATE, VERDICT, REASON, COLUMNS };
@@ -122,8 +117,8 @@ static enum verdict compare(const struct gx_paper_row *row, const struct gx_tabl
   if (!*ours.reason) verdict = text ? judge_text(row, ours.value.text) : judge(row, &gate, real);
   snprintf(reason, REASON_ROOM, "%s%s%s", *ours.reason ? ours.reason : row->reason, *row->reason && *ours.because ? "; " : "",
            ours.because);
-  value[OURS] = text ? ours.value : real_value(real);
-  value[RATIO] = real_value(real / number(row->printed));
+  value[OURS] = text ? ours.value : gx_value_from(real);
+  value[RATIO] = gx_value_from(real / number(row->printed));
   value[REASON] = text_value(reason);
   return verdict;
 }

@@ -28,7 +28,7 @@ static void put_text(struct cursor *at, const char *name, const char *text)
 
 static void put_real(struct cursor *at, const char *name, const char *unit, double real)
 {
-  put(at, name, unit, GX_REAL, !isfinite(real) ? (struct gx_value){0} : (struct gx_value){.type = GX_REAL, .real = real});
+  put(at, name, unit, GX_REAL, gx_value_from(real));
 }
 
 static void put_count(struct cursor *at, const char *name, double count)

@@ -78,17 +78,12 @@ static void tell_unmet(const struct ground *ground, FILE *errors)
               id_of(ground, nearest(front)), gx_front_error(front, nearest(front)));
 }
 
-static struct gx_value real(double number)
-{
-  return isnan(number) ? (struct gx_value){0} : (struct gx_value){.type = GX_REAL, .real = number};
-}
-
 /* To two digits, as timings deserve. */
 static struct gx_value rounded(double number)
 {
   char text[GX_NUMBER_LENGTH];
   snprintf(text, sizeof text, "%.1e", number);
-  return real(isnan(number) ? NAN : strtod(text, NULL));
+  return gx_value_from(strtod(text, NULL));
 }
 
 /* Column `to` of a table of the front's members: column `from` of the studies. */
@@ -160,7 +155,7 @@ static int print_pick(const struct ground *ground, double bound, FILE *out)
 {
   const struct gx_front *front = &ground->front;
   char number[GX_NUMBER_LENGTH], error[GX_NUMBER_LENGTH], seconds[GX_NUMBER_LENGTH];
-  fprintf(out, "\nerror at most %s: ", gx_sheet_text("", real(bound), number));
+  fprintf(out, "\nerror at most %s: ", gx_sheet_text("", gx_value_from(bound), number));
   if (!front->members) {
     fputs("no case\n", out);
     return 0;
@@ -205,7 +200,7 @@ static int put_picked(struct gx_table *table, size_t i, size_t column, const str
   if (!out) return -1;
   for (size_t b = 0; b < ground->advice->bounds; b++) {
     if (gx_front_pick(&ground->front, ground->advice->bound[b]) != (long)ground->front.member[i]) continue;
-    fprintf(out, "%s%s", count++ ? " " : "", gx_sheet_text("", real(ground->advice->bound[b]), number));
+    fprintf(out, "%s%s", count++ ? " " : "", gx_sheet_text("", gx_value_from(ground->advice->bound[b]), number));
   }
   int failed = ferror(out) | fclose(out);
   if (!failed && count) failed = gx_table_set(table, i, column, (struct gx_value){.type = GX_TEXT, .text = text});

@@ -55,8 +55,7 @@ struct fit {
 static double number(const struct gx_table *table, size_t row, const char *column)
 {
   long c = gx_table_find(table, column);
-  struct gx_value value = c < 0 ? (struct gx_value){0} : gx_table_get(table, row, (size_t)c);
-  return value.type == GX_REAL ? value.real : value.type == GX_INTEGER ? (double)value.integer : NAN;
+  return c < 0 ? NAN : gx_value_number(gx_table_get(table, row, (size_t)c));
 }
 
 static void insert(struct curve *curve, double x, double y)
@@ -228,8 +227,7 @@ static int put_row(struct gx_table *out, size_t row, size_t column, const struct
   char advice[512];
   struct gx_value cells = {.type = GX_INTEGER, .integer = (long)fit->cells};
   int failed = gx_table_set(out, row, column++, cells);
-  for (size_t k = 0; k < RESULTS && !failed; k++)
-    if (isfinite(value[k])) failed = gx_table_set(out, row, column + k, (struct gx_value){.type = GX_REAL, .real = value[k]});
+  for (size_t k = 0; k < RESULTS && !failed; k++) failed = gx_table_set(out, row, column + k, gx_value_from(value[k]));
   advise(fit, advice, sizeof advice);
   if (!failed && *advice) failed = gx_table_set(out, row, column + RESULTS, (struct gx_value){.type = GX_TEXT, .text = advice});
   return failed;
@@ -304,7 +302,7 @@ struct gx_table *gx_balance_table(const struct gx_table *table, const char *name
   long axes, methods = axis && group ? split(table, axis, &axes, group) : -1;
   struct gx_table *out = methods < 0 ? NULL : gx_table_create((size_t)axes + 1 + RESULTS + 1, (size_t)methods);
   int failed = out ? fill(out, table, axis, axes, group, name, errors) : -1;
-  if (!out) fputs("out of memory\n", errors);
+  if (!out) fprintf(errors, "%s: out of memory\n", name);
   free(axis);
   free(group);
   if (!failed) return out;

@@ -6,11 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static struct gx_value real_value(double real)
-{
-  return isfinite(real) ? (struct gx_value){.type = GX_REAL, .real = real} : (struct gx_value){.type = GX_NULL};
-}
-
 static struct gx_table *keep(struct gx_table *table, int failed)
 {
   if (!failed) return table;
@@ -47,12 +42,12 @@ struct gx_table *gx_spectra_times(const struct gx_spectra *spectra, enum gx_quan
   for (size_t r = 0; r < rows && !failed; r++) {
     size_t sample = spread(r, rows, spectra->samples - 1);
     double value[PARTS];
-    failed = gx_table_set(table, r, 0, real_value(spectra->time[sample]));
+    failed = gx_table_set(table, r, 0, gx_value_from(spectra->time[sample]));
     for (size_t c = 0; c < PARTS && !failed; c++) {
       value[c] = gx_spectrum_band(spectra, sample, quantity, low[c], high[c]);
-      failed = gx_table_set(table, r, c + 1, real_value(value[c]));
+      failed = gx_table_set(table, r, c + 1, gx_value_from(value[c]));
     }
-    if (!failed) failed = gx_table_set(table, r, PARTS + 1, real_value(value[2] * value[2] / (value[0] * value[0])));
+    if (!failed) failed = gx_table_set(table, r, PARTS + 1, gx_value_from(value[2] * value[2] / (value[0] * value[0])));
   }
   return keep(table, failed);
 }
@@ -97,12 +92,12 @@ struct gx_table *gx_spectra_wavenumbers(const struct gx_spectra *spectra, enum g
     double wavenumber = (double)b * spectra->spacing, half = 0.5 * spectra->spacing;
     const char *mark = mark_of(spectra, wavenumber);
     if (!mark && !is_seen(spectra, quantity, b, SHOWN, sample)) continue;
-    failed = gx_table_set(table, row, 0, real_value(wavenumber));
+    failed = gx_table_set(table, row, 0, gx_value_from(wavenumber));
     for (size_t i = 0; i < SHOWN && !failed; i++)
-      failed = gx_table_set(table, row, 1 + i, real_value(content(spectra, quantity, sample[i], b)));
+      failed = gx_table_set(table, row, 1 + i, gx_value_from(content(spectra, quantity, sample[i], b)));
     if (!failed) {
       double growth = gx_spectrum_growth(spectra, quantity, wavenumber - half, wavenumber + half);
-      failed = gx_table_set(table, row, GROWTH, real_value(growth));
+      failed = gx_table_set(table, row, GROWTH, gx_value_from(growth));
     }
     if (!failed && mark) failed = gx_table_set(table, row, MARK, (struct gx_value){.type = GX_TEXT, .text = mark});
     row++;
@@ -121,8 +116,8 @@ struct gx_table *gx_spectra_last(const struct gx_spectra *spectra, enum gx_quant
   for (size_t b = 1; b < spectra->bins; b++) most = fmax(most, content(spectra, quantity, spectra->samples - 1, b));
   for (size_t b = 1; b < spectra->bins && !failed; b++) {
     double part = content(spectra, quantity, spectra->samples - 1, b);
-    failed = gx_table_set(table, b - 1, 0, real_value((double)b * spectra->spacing)) ||
-             gx_table_set(table, b - 1, 1, real_value(part > 1e-12 * most ? part : NAN));
+    failed = gx_table_set(table, b - 1, 0, gx_value_from((double)b * spectra->spacing)) ||
+             gx_table_set(table, b - 1, 1, gx_value_from(part > 1e-12 * most ? part : NAN));
   }
   return keep(table, failed);
 }
@@ -140,9 +135,9 @@ struct gx_table *gx_spectra_all(size_t cases, struct gx_spectra *const *spectra,
     for (size_t r = 0; r < spectra[i]->samples * spectra[i]->bins && !failed; r++, row++) {
       size_t sample = r / spectra[i]->bins, bin = r % spectra[i]->bins;
       failed = gx_table_set(table, row, 0, (struct gx_value){.type = GX_TEXT, .text = id[i]}) ||
-               gx_table_set(table, row, 1, real_value(spectra[i]->time[sample])) ||
-               gx_table_set(table, row, 2, real_value((double)bin * spectra[i]->spacing)) ||
-               gx_table_set(table, row, 3, real_value(content(spectra[i], quantity, sample, bin)));
+               gx_table_set(table, row, 1, gx_value_from(spectra[i]->time[sample])) ||
+               gx_table_set(table, row, 2, gx_value_from((double)bin * spectra[i]->spacing)) ||
+               gx_table_set(table, row, 3, gx_value_from(content(spectra[i], quantity, sample, bin)));
     }
   return keep(table, failed);
 }

@@ -97,6 +97,19 @@ static void values_have_an_order(void **state)
   assert_int_equal(gx_value_compare(integer(2), real(2)), 0);
 }
 
+static void numbers_become_values_and_back(void **state)
+{
+  (void)state;
+  struct gx_value half = gx_value_from(0.5);
+  assert_int_equal(half.type, GX_REAL);
+  assert_true(gx_value_number(half) == 0.5);
+  assert_true(gx_value_number(integer(7)) == 7);
+  assert_int_equal(gx_value_from(NAN).type, GX_NULL);
+  assert_int_equal(gx_value_from(-INFINITY).type, GX_NULL);
+  assert_true(isnan(gx_value_number(gx_value_from(NAN))));
+  assert_true(isnan(gx_value_number(text("0.5"))));
+}
+
 /* The columns after the parameters, as scripts know them. */
 static const char *const result_columns[] = {
     "result.status",
@@ -279,6 +292,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(cells_start_null_and_keep_what_is_set),
+      cmocka_unit_test(numbers_become_values_and_back),
       cmocka_unit_test(tables_beyond_memory_are_refused),
       cmocka_unit_test(columns_copy_with_their_texts),
       cmocka_unit_test(numbers_read_back_bit_for_bit),
