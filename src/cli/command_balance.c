@@ -94,8 +94,8 @@ const struct gx_command gx_command_balance = {
     .operands = "FILE.yaml",
     .least = 1,
     .most = 1,
-    .help = "Fit space and time errors of one step over mesh.cells and time.dt, and find the step where they meet, as in "
-            "gridcross balance runs/balance.yaml.",
+    .help = "Fit space and time errors of one step over mesh.cells and time.dt, and find the step where they meet.",
+    .example = "gridcross balance runs/balance.yaml",
     .option = option,
     .run = run,
 };

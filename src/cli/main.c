@@ -13,13 +13,13 @@
 static const struct gx_command *const commands[] = {&gx_command_run,
                                                     &gx_command_check,
                                                     &gx_command_init,
-                                                    &gx_command_list,
                                                     &gx_command_compare,
                                                     &gx_command_plot,
                                                     &gx_command_spectrum,
                                                     &gx_command_balance,
                                                     &gx_command_advise,
                                                     &gx_command_paper,
+                                                    &gx_command_list,
                                                     NULL};
 
 static void print_help(FILE *out)
