@@ -17,7 +17,8 @@ struct gx_moduli {
 /* E and Poisson's ratio to Lamé parameters: lambda = E nu/((1+nu)(1-2nu)), mu = E/(2(1+nu)). */
 struct gx_moduli gx_material_moduli(double young, double poisson, double density);
 
-/* Tensors as in gx_particles: dim*dim arrays of n entries, row-major. Without piola there is no stress, without energy none. */
+/* Tensors as in gx_particles: dim*dim arrays of n entries, row-major. Without piola there is no stress, without energy no strain
+ * energy. */
 struct gx_material {
   const char *name;
   const char *help;

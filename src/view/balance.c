@@ -260,15 +260,17 @@ static long split(const struct gx_table *table, size_t *axis, long *axes, size_t
   return found < 0 ? -1 : methods;
 }
 
+/* Returns 0, or 1 after a message. */
 static int check(const struct fit *fit, const char *name, FILE *errors)
 {
   const char *lacks = fit->space.count < 3 ? "mesh.cells" : fit->time.count < 3 || fit->step.count < 1 ? "time.dt" : NULL;
   if (!lacks) return 0;
   fprintf(errors, "%s: a method has one-step errors for %zu mesh%s and %zu time step%s; give %s a list of three or more\n", name,
           fit->space.count, fit->space.count == 1 ? "" : "es", fit->time.count, fit->time.count == 1 ? "" : "s", lacks);
-  return -1;
+  return 1;
 }
 
+/* Returns 0, 1 after a message, or -1 when memory runs out. */
 static int fill(struct gx_table *out, const struct gx_table *table, const size_t *axis, long axes, const size_t *group,
                 const char *name, FILE *errors)
 {
@@ -302,7 +304,7 @@ struct gx_table *gx_balance_table(const struct gx_table *table, const char *name
   long axes, methods = axis && group ? split(table, axis, &axes, group) : -1;
   struct gx_table *out = methods < 0 ? NULL : gx_table_create((size_t)axes + 1 + RESULTS + 1, (size_t)methods);
   int failed = out ? fill(out, table, axis, axes, group, name, errors) : -1;
-  if (!out) fprintf(errors, "%s: out of memory\n", name);
+  if (failed < 0) fprintf(errors, "%s: out of memory\n", name);
   free(axis);
   free(group);
   if (!failed) return out;

@@ -314,6 +314,7 @@ class Front(Case):
     def test_refusals(self):
         (self.dir / "small.study/timing.csv").unlink()
         for args, hint in [(["--front"], "timing.csv"), (["--front", "history"], "leave out history or --front"),
+                           (["--front", "spectrum"], "leave out spectrum or --front"),
                            (["--front", "--by", "method.spce"], "did you mean method.space?"),
                            (["--front", "--x", "result.status"], "not a number"), (["--front", "--y", "result.stauts"], "result.status"),
                            (["--front", "--where", "mesh.cells=9"], "there are: 8 16 32")]:
