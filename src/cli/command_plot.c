@@ -88,8 +88,8 @@ int gx_command_plot_figure(const struct gx_options *options, size_t points, cons
             kind->draw == gx_plot_history ? "time" : "wavenumber");
     return GX_EXIT_USAGE;
   }
-  if (kind && kind->draw == gx_plot_history && gx_options_value(options, "front")) {
-    fputs("gridcross plot: a history has no front: leave out history or --front\n", stderr);
+  if (kind && kind->draw != gx_plot_lines && gx_options_value(options, "front")) {
+    fprintf(stderr, "gridcross plot: a %s has no front: leave out %s or --front\n", kind->name, kind->name);
     return GX_EXIT_USAGE;
   }
   if (options->operands > 1 && !kind && check_kind(last)) return GX_EXIT_USAGE;
