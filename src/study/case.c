@@ -70,18 +70,27 @@ static size_t nearest_particle(const struct gx_particles *particles, const char 
   return nearest;
 }
 
+static const double most_numbers = 1e8; /* kept of a case: more are a slip, or more than can be looked at */
+
 static enum gx_status prepare_history(struct run *run)
 {
   struct gx_history *history = &run->result->history;
   double samples = 0;
   if (run->history_every > 0) samples += floor(run->simulation.steps / run->history_every) + 2;
   if (run->budget_every > 0) samples += floor(run->simulation.steps / run->budget_every) + 2;
-  bool probed = run->result->probe >= 0, fits = samples < 1e9;
+  bool probed = run->result->probe >= 0;
+  size_t bytes = sizeof *history->sample + probed * sizeof *history->probe + !!run->budget * sizeof *history->budget;
+  double each = (double)(bytes / sizeof(double));
+  if (samples * each > most_numbers)
+    return gx_status_set(
+        &run->result->outcome, GX_REFUSED, -1,
+        "histories of %.3g samples of %.3g numbers each are too many: make output.histories or output.budget larger", samples,
+        each);
   history->jumps = run->simulation.jumps;
   history->dim = run->simulation.particles->dim;
-  history->sample = fits ? malloc((size_t)samples * sizeof *history->sample) : NULL;
-  history->probe = fits && probed ? malloc((size_t)samples * sizeof *history->probe) : NULL;
-  history->budget = fits && run->budget ? malloc((size_t)samples * sizeof *history->budget) : NULL;
+  history->sample = malloc((size_t)samples * sizeof *history->sample);
+  history->probe = probed ? malloc((size_t)samples * sizeof *history->probe) : NULL;
+  history->budget = run->budget ? malloc((size_t)samples * sizeof *history->budget) : NULL;
   if (history->sample && (history->probe || !probed) && (history->budget || !run->budget)) return GX_OK;
   return gx_status_set(&run->result->outcome, GX_FAILED, -1, "out of memory for %.3g history samples", samples);
 }
@@ -100,9 +109,8 @@ static enum gx_status prepare_spectra(struct run *run)
       .nyquist = 0.5 * cells,
       .driven = simulation->problem_options.mode,
   };
-  const double most = 1e8; /* numbers kept: a slip, or more than can be looked at */
   double samples = floor(simulation->steps / run->spectra_every) + 2, each = (double)(GX_QUANTITIES * spectra->bins);
-  if (samples * each > most)
+  if (samples * each > most_numbers)
     return gx_status_set(&run->result->outcome, GX_REFUSED, -1,
                          "%.3g spectra of %.3g numbers each are too many: make output.spectra larger", samples, each);
   spectra->time = malloc((size_t)samples * sizeof(double));

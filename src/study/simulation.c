@@ -2,6 +2,7 @@
 /* From the resolved parameters of a case to something that runs. */
 #include "simulation.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -143,6 +144,9 @@ static enum gx_status settle_steps(struct gx_simulation *simulation, const struc
                          span);
   simulation->steps = counted > 0 ? counted : fmax(1, ceil(span / dt - 1e-9)); /* however short, the time asked for is run */
   if (simulation->steps > 1e15) return gx_status_set(outcome, GX_REFUSED, -1, "%.3g steps would never end", simulation->steps);
+  if (fabs(start) * DBL_EPSILON > 1e-3 * dt)
+    return gx_status_set(outcome, GX_REFUSED, -1, "steps of %g s vanish in the digits of time.start, %g s: start nearer 0", dt,
+                         start);
   simulation->dt = is(one, GX_TIME_LANDING, "exact") ? span / simulation->steps : dt;
   simulation->problem_options.dt = simulation->dt;
   simulation->start = start;

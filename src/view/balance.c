@@ -263,6 +263,13 @@ static long split(const struct gx_table *table, size_t *axis, long *axes, size_t
 /* Returns 0, or 1 after a message. */
 static int check(const struct fit *fit, const char *name, FILE *errors)
 {
+  if (!fit->space.count || !fit->time.count) {
+    fprintf(errors,
+            "%s: a method has no error in any single step: none of its cases take one, or the exact solution does not accelerate "
+            "at the start; choose another time.start or a smaller time.dt\n",
+            name);
+    return -1;
+  }
   const char *lacks = fit->space.count < 3 ? "mesh.cells" : fit->time.count < 3 || fit->step.count < 1 ? "time.dt" : NULL;
   if (!lacks) return 0;
   fprintf(errors, "%s: a method has one-step errors for %zu mesh%s and %zu time step%s; give %s a list of three or more\n", name,

@@ -73,6 +73,15 @@ class Balance(unittest.TestCase):
         self.call("balance", code=2)
         self.call("balance", FILE, "--csv", "--json", code=2)
 
+    def test_a_start_without_acceleration_is_named(self):
+        """At time 0 the wave is undeformed: no step from there errs, and it is not the lists that are too short."""
+        file = pathlib.Path(self.place.name) / "still.yaml"
+        file.write_text("problem: {name: bar-linear}\nmesh: {cells: [4, 8, 16]}\ntime: {dt: [1e-6, 1e-5, 1e-4]}\n")
+        told = self.call("balance", file, code=2).stderr
+        self.assertIn("time.start", told)
+        self.assertNotIn("a list of three", told)
+        self.call("balance", file, "--set", "time.start=2e-3")
+
     def test_a_run_names_what_dominates(self):
         file = pathlib.Path(self.place.name) / "bar.yaml"
         file.write_text("problem: {name: bar-linear, modulus: 16}\nmesh: {cells: 100, particles_per_cell: 2}\n"

@@ -251,6 +251,21 @@ with h5py.File(sys.argv[2], "w") as g:
         self.assertIn("not a study", self.call("compare", "foreign", code=2).stderr)
         self.assertIn("not a study", self.call("run", "small.yaml", "-o", "foreign", code=2).stderr)
 
+    def test_what_memory_or_digits_cannot_hold_is_refused(self):
+        def outcomes(time, output="{}"):
+            (self.dir / "far.yaml").write_text(f"problem: {{name: bar-linear}}\nmesh: {{cells: 4}}\ntime: {time}\noutput: {output}\n")
+            self.call("run", "far.yaml", "-q")
+            rows = csv.DictReader((self.dir / "far.study" / "table.csv").read_text().splitlines())
+            return [(row["result.status"], row["result.reason"]) for row in rows]
+
+        for time, output, reason in [("{dt: 1e-12}", "{histories: 1}", "make output.histories or output.budget larger"),
+                                     ("{dt: 1e-12}", "{budget: 1}", "make output.histories or output.budget larger"),
+                                     ("{start: 1e17, steps: 3}", "{}", "vanish in the digits of time.start")]:
+            [(status, said)] = outcomes(time, output)
+            self.assertEqual(status, "refused")
+            self.assertIn(reason, said)
+        self.assertEqual(outcomes("{start: 1e5, steps: 3}"), [("ok", "")])
+
 
 class Compare(Case):
     def setUp(self):

@@ -268,6 +268,10 @@ class Hostile(Case):
 
 
 class Front(Case):
+    def test_a_history_or_spectrum_has_no_front(self):
+        for kind in ("history", "spectrum"):
+            self.assertIn(f"a {kind} has no front", self.plot(kind, "--front", "-o", "fig.svg", code=2).stderr)
+
     def test_every_case_and_the_front(self):
         self.assertEqual(self.plot("--front", "-o", "fig.svg").stderr, "")
         rows, error = self.rows("fig.csv"), "result.displacement.max.rms"
