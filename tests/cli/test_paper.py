@@ -65,8 +65,9 @@ class Paper(unittest.TestCase):
         rows = list(csv.DictReader(self.call(item, "-o", "kept", "--csv").stdout.splitlines()))
         data = list(csv.DictReader((self.dir / "kept/berzins2021-table6.csv").read_text().splitlines()))
         printed = [point for point in data if point["label"] == "printed"]
-        self.assertEqual([float(p["result.displacement.final.inf"]) for p in printed], [float(r["printed"]) for r in rows])
-        self.assertEqual([float(p["time.end"]) for p in printed], [1e-3, 1e-2, 2e-2, 0.1, 0.2, 0.5, 1])
+        self.assertEqual([float(p["result.displacement.final.inf"]) for p in printed], [float(r["printed"]) for r in rows if r["printed"]])
+        self.assertEqual([float(p["time.end"]) for p in printed],
+                         [t for t in (1e-3, 1e-2, 2e-2, 0.1, 0.2, 0.5, 1) for column in ("cubic", "quartic")])
         self.assertIn("printed", (self.dir / "kept/berzins2021-table6.svg").read_text())
 
     def test_messages(self):
