@@ -5,11 +5,11 @@ import io
 import json
 import math
 import pathlib
-import shutil
-import subprocess
 import sys
-import tempfile
 import unittest
+
+sys.dont_write_bytecode = True
+from studied import PROGRAM, Studied
 
 PROGRAM, ROOT = (pathlib.Path(a).resolve() for a in sys.argv[1:3])
 STUDY = """title: small
@@ -21,27 +21,9 @@ time: {cfl: [0.4, 0.8, 3], periods: 0.5}
 ERROR = "result.displacement.max.rms"
 
 
-class Case(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.place = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.place.cleanup)
-        cls.base = pathlib.Path(cls.place.name) / "base"
-        cls.base.mkdir()
-        (cls.base / "small.yaml").write_text(STUDY)
-        subprocess.run([PROGRAM, "run", "small.yaml", "-q", "--repeats", "3"], cwd=cls.base, check=True, capture_output=True)
-
-    def setUp(self):
-        place = tempfile.TemporaryDirectory()
-        self.addCleanup(place.cleanup)
-        self.dir = pathlib.Path(place.name) / "work"
-        shutil.copytree(self.base, self.dir)
-
-    def call(self, *args, code=0, **more):
-        done = subprocess.run([PROGRAM, *map(str, args)], cwd=self.dir, capture_output=True, timeout=60, **more)
-        done.stdout, done.stderr = done.stdout.decode(), done.stderr.decode()
-        self.assertEqual(done.returncode, code, f"{args}: {done.stdout[-500:]}\n{done.stderr[-500:]}")
-        return done
+class Case(Studied):
+    study = STUDY
+    options = ("--repeats", "3")
 
     def front(self, *args, study="small.study"):
         return json.loads(self.call("advise", study, "--json", *args).stdout)

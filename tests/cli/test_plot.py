@@ -3,16 +3,16 @@
 import csv
 import math
 import os
-import pathlib
 import re
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
 
-PROGRAM = pathlib.Path(sys.argv[1]).resolve()
+sys.dont_write_bytecode = True
+from studied import PROGRAM, Studied
+
 if not shutil.which("gnuplot"):
     print("skipped: gnuplot is not installed")
     sys.exit(77)
@@ -26,26 +26,11 @@ output: {histories: 2}
 HOSTILE = "a'b \"c\" `touch p1` $(touch p2) %d %s @x {/Bold y} z^2_3 \\n ~a{.8b} <i> & # ; system('touch p3')"
 
 
-class Case(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.place = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.place.cleanup)
-        cls.base = pathlib.Path(cls.place.name) / "base"
-        cls.base.mkdir()
-        (cls.base / "small.yaml").write_text(STUDY)
-        subprocess.run([PROGRAM, "run", "small.yaml", "-q"], cwd=cls.base, check=True, capture_output=True)
+class Case(Studied):
+    study = STUDY
 
-    def setUp(self):
-        place = tempfile.TemporaryDirectory()
-        self.addCleanup(place.cleanup)
-        self.dir = pathlib.Path(place.name) / "work"
-        shutil.copytree(self.base, self.dir)
-
-    def call(self, *args, code=0, **more):
-        done = subprocess.run([PROGRAM, *map(str, args)], cwd=self.dir, capture_output=True, timeout=60, **more)
-        done.stdout, done.stderr = done.stdout.decode(), done.stderr.decode()
-        self.assertEqual(done.returncode, code, f"{args}: {done.stdout[-500:]}\n{done.stderr[-500:]}")
+    def call(self, *args, **more):
+        done = super().call(*args, **more)
         self.assertEqual(done.stdout, "")
         return done
 

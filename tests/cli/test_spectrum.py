@@ -4,11 +4,12 @@ import csv
 import io
 import math
 import pathlib
-import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
+
+sys.dont_write_bytecode = True
+from studied import PROGRAM, Studied
 
 PROGRAM, ROOT = (pathlib.Path(a).resolve() for a in sys.argv[1:3])
 STUDY = """title: small
@@ -22,26 +23,8 @@ QUANTITIES = ("displacement", "velocity", "stress")
 PYTHON = "/usr/bin/python3"  # of the system: where h5py is
 
 
-class Case(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.place = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.place.cleanup)
-        cls.base = pathlib.Path(cls.place.name) / "base"
-        cls.base.mkdir()
-        (cls.base / "small.yaml").write_text(STUDY)
-        subprocess.run([PROGRAM, "run", "small.yaml", "-q"], cwd=cls.base, check=True, capture_output=True)
-
-    def setUp(self):
-        place = tempfile.TemporaryDirectory()
-        self.addCleanup(place.cleanup)
-        self.dir = pathlib.Path(place.name) / "work"
-        shutil.copytree(self.base, self.dir)
-
-    def call(self, *args, code=0):
-        done = subprocess.run([PROGRAM, *map(str, args)], cwd=self.dir, capture_output=True, text=True, timeout=60)
-        self.assertEqual(done.returncode, code, f"{args}: {done.stdout[-500:]}\n{done.stderr[-500:]}")
-        return done
+class Case(Studied):
+    study = STUDY
 
     def table(self, study="small.study"):
         return list(csv.DictReader((self.dir / study / "table.csv").read_text().splitlines()))
