@@ -33,7 +33,12 @@ static inline struct points points_at(const struct gx_basis *basis, int dim, int
   struct gx_weights *weights = &points.weights;
   for (int d = 0; d < dim; d++) {
     grid->axis[d] = (struct gx_axis){
-        .cells = cells + d, .periodic = periodic, .h = 1.0 / (cells + d), .degree = basis->has_degree ? degree : 1};
+        .cells = cells + d,
+        .periodic = periodic,
+        .h = 1.0 / (cells + d),
+        .degree = basis->has_degree ? degree : 1,
+        .held = {1u << d, 1u << d},
+    };
     basis->layout(&grid->axis[d]);
     grid->stride[d] = weights->stride[d] = grid->stored;
     grid->stored *= (size_t)grid->axis[d].stored;

@@ -12,12 +12,13 @@
 struct gx_axis {
   int cells;
   bool periodic;
-  double h;      /* cell width 1/cells, m */
-  int degree;    /* of the basis along this direction */
-  int support;   /* functions that are non-zero in a cell */
-  int functions; /* distinct basis functions */
-  int stored;    /* functions plus periodic images */
-  int edge;      /* bounded: functions at each end that a fixed end holds at zero */
+  double h;         /* cell width 1/cells, m */
+  int degree;       /* of the basis along this direction */
+  int support;      /* functions that are non-zero in a cell */
+  int functions;    /* distinct basis functions */
+  int stored;       /* functions plus periodic images */
+  int edge;         /* bounded: functions at each end that are zero where a component is held there */
+  unsigned held[2]; /* bounded: bit d: vector component d is held at zero at the low, the high end */
 };
 
 struct gx_grid {
@@ -31,7 +32,9 @@ struct gx_grid {
 void gx_grid_fold(const struct gx_grid *grid, double *field);
 /* Copies functions to their periodic images. field: [stored]. */
 void gx_grid_spread(const struct gx_grid *grid, double *field);
-/* Zeroes the functions at the ends of bounded direction d: a fixed end. field: [stored]. */
+/* Zeroes vector component d where an end holds it. field: [stored]. */
 void gx_grid_fix(const struct gx_grid *grid, int d, double *field);
+/* The components that are held at a node: bit d for component d. */
+unsigned gx_grid_held(const struct gx_grid *grid, size_t node);
 
 #endif

@@ -13,6 +13,8 @@
 struct gx_space_options {
   int cells[GX_MAX_DIM];
   bool periodic;
+  unsigned held[GX_MAX_DIM]
+               [2]; /* bounded: bit e of [d][0], [d][1]: component e is zero at the low, the high end of direction d */
   const struct gx_basis *basis;
   int degree;
   bool consistent;      /* mass matrix: consistent, else lumped (row sums) */

@@ -45,12 +45,27 @@ void gx_grid_spread(const struct gx_grid *grid, double *field)
 
 void gx_grid_fix(const struct gx_grid *grid, int d, double *field)
 {
-  const struct gx_axis *axis = &grid->axis[d];
-  if (axis->periodic) return;
-  size_t inner = grid->stride[d], outer = outer_of(grid, d);
-  for (size_t o = 0; o < outer; o++)
-    for (int k = 0; k < axis->edge; k++) {
-      double *low = layer(grid, d, field, o, k), *high = layer(grid, d, field, o, axis->functions - 1 - k);
-      for (size_t i = 0; i < inner; i++) low[i] = high[i] = 0;
-    }
+  for (int e = 0; e < grid->dim; e++) {
+    const struct gx_axis *axis = &grid->axis[e];
+    size_t inner = grid->stride[e], outer = outer_of(grid, e);
+    for (int end = 0; end < 2 && !axis->periodic; end++)
+      for (size_t o = 0; axis->held[end] >> d & 1 && o < outer; o++)
+        for (int k = 0; k < axis->edge; k++) {
+          double *run = layer(grid, e, field, o, end ? axis->functions - 1 - k : k);
+          for (size_t i = 0; i < inner; i++) run[i] = 0;
+        }
+  }
+}
+
+unsigned gx_grid_held(const struct gx_grid *grid, size_t node)
+{
+  unsigned held = 0;
+  for (int d = 0; d < grid->dim; d++) {
+    const struct gx_axis *axis = &grid->axis[d];
+    int k = (int)(node / grid->stride[d] % (size_t)axis->stored);
+    if (axis->periodic) continue;
+    if (k < axis->edge) held |= axis->held[0];
+    if (k >= axis->functions - axis->edge) held |= axis->held[1];
+  }
+  return held;
 }

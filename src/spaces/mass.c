@@ -52,16 +52,14 @@ static void number_functions(struct gx_mass *mass)
   const struct gx_grid *grid = mass->grid;
   for (size_t node = 0; node < grid->stored; node++) {
     size_t position = 0, stride = 1;
-    unsigned held = 0;
     for (int d = 0; d < grid->dim; d++) {
       const struct gx_axis *axis = &grid->axis[d];
       int k = (int)(node / grid->stride[d] % (size_t)axis->stored);
       position += number_on_axis(axis, (size_t)k) * stride;
       stride *= (size_t)axis->functions;
-      if (!axis->periodic && (k < axis->edge || k >= axis->functions - axis->edge)) held |= 1u << d;
     }
     mass->position[node] = position;
-    mass->held[position] = held;
+    mass->held[position] = gx_grid_held(grid, node);
   }
 }
 
@@ -74,7 +72,7 @@ static void dimensions(const struct gx_grid *grid, size_t *unknowns, size_t *ban
   for (int d = 0; d < grid->dim; d++) {
     *bandwidth += bandwidth_on_axis(&grid->axis[d]) * *unknowns;
     *unknowns *= (size_t)grid->axis[d].functions;
-    if (!grid->axis[d].periodic) *variants = grid->dim;
+    if (grid->axis[d].held[0] || grid->axis[d].held[1]) *variants = grid->dim;
   }
   if (*bandwidth >= *unknowns) *bandwidth = *unknowns - 1;
 }

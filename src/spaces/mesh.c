@@ -22,6 +22,7 @@ static void lay_out_grid(struct gx_mesh *mesh)
         .periodic = mesh->options.periodic,
         .h = 1.0 / mesh->options.cells[d],
         .degree = mesh->options.degree,
+        .held = {mesh->options.held[d][0], mesh->options.held[d][1]},
     };
     mesh->options.basis->layout(axis);
     grid->stride[d] = grid->stored;

@@ -58,6 +58,8 @@ static void read_method(struct gx_simulation *simulation, const struct gx_case *
   simulation->per_cell = (int)integer(one, GX_MESH_PARTICLES_PER_CELL, 1);
   for (int d = 0; d < GX_MAX_DIM; d++) options->cells[d] = (int)integer(one, GX_MESH_CELLS, 1);
   options->periodic = is(one, GX_PROBLEM_BOUNDARY, "periodic");
+  for (int d = 0; d < GX_MAX_DIM && is(one, GX_PROBLEM_BOUNDARY, "fixed"); d++) /* walls along which the body slides */
+    options->held[d][0] = options->held[d][1] = 1u << d;
   const struct gx_value *basis = &one->value[GX_METHOD_BASIS];
   options->basis = basis->type == GX_TEXT ? gx_basis_find(basis->text) : NULL;
   options->degree = (int)integer(one, GX_METHOD_DEGREE, 1);
