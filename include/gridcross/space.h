@@ -10,6 +10,8 @@
 #include <gridcross/particles.h>
 #include <gridcross/problem.h>
 
+struct gx_team;
+
 struct gx_space_options {
   int cells[GX_MAX_DIM];
   bool periodic;
@@ -27,6 +29,7 @@ struct gx_space_options {
   bool reference;         /* method.frame: sites at X, else at x */
   bool symmetric;         /* method.closure: mirrored at fixed ends, else the papers' */
   bool papers_divergence; /* method.divergence: the factor F left out, as in the papers */
+  struct gx_team *team;   /* threads for the parts of a step, borrowed; NULL: none but the caller */
 };
 
 /* What clocks are made of. */
