@@ -27,6 +27,7 @@ static inline void rig_reorder(struct gx_particles *particles, const size_t *ord
     memcpy(copy, arrays[k], particles->n * sizeof(double));
     for (size_t p = 0; p < particles->n; p++) arrays[k][p] = copy[order[p]];
   }
+  memset(particles->lattice, 0, sizeof particles->lattice);
   free(copy);
 }
 

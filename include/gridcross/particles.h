@@ -14,10 +14,13 @@ enum gx_layout {
   GX_LAYOUT_GAUSS    /* Gauss points of a cell, Gauss weights as volumes */
 };
 
-/* Tensors are row-major: component (i, j) is array i * dim + j. All arrays have n entries, 64-byte aligned, owned. SI units. */
+/* Tensors are row-major: component (i, j) is array i * dim + j. All arrays have n entries, 64-byte aligned, owned. SI units.
+ * On a complete lattice particle p is point (k0, k1, k2), p = (k2 lattice[1] + k1) lattice[0] + k0, and its X and half_length along d
+ * depend on k_d alone: sums over it factor by directions. Whoever moves X or changes the order clears `lattice`. */
 struct gx_particles {
   int dim;                         /* 1, 2 or 3 */
   size_t n;                        /* number of particles */
+  int lattice[GX_MAX_DIM];         /* points per direction; zeros: not a complete lattice */
   double *X[GX_MAX_DIM];           /* reference position, m */
   double *u[GX_MAX_DIM];           /* displacement, m; current position x = X + u, never wrapped */
   double *v[GX_MAX_DIM];           /* velocity, m/s */
@@ -31,7 +34,7 @@ struct gx_particles {
 };
 
 /* Particles at rest, F = I, in the box [0,1]^dim of cells[d] cells with per_cell particles per cell and direction,
- * ordered cell by cell (first direction fastest). density: kg/m^dim. NULL when memory runs out. */
+ * a complete lattice. density: kg/m^dim. NULL when memory runs out or the particles cannot be counted. */
 struct gx_particles *gx_particles_create(int dim, const int *cells, int per_cell, enum gx_layout layout, double density);
 /* A copy with its own memory; NULL when that runs out. */
 struct gx_particles *gx_particles_copy(const struct gx_particles *particles);

@@ -71,22 +71,20 @@ static int points_of_cell(int per_cell, enum gx_layout layout, double *point, do
   return 0;
 }
 
-/* Digits of p: first the particle within the cell, then the cell, first direction fastest. */
+/* Digits of p: the point along each direction, first direction fastest. */
 static void place_particle(struct gx_particles *particles, size_t p, const int *cells, int per_cell, const double *point,
                            const double *length, double density)
 {
   int dim = particles->dim;
   size_t rest = p;
-  int inside[GX_MAX_DIM];
-  for (int d = 0; d < dim; d++, rest /= (size_t)per_cell) inside[d] = (int)(rest % (size_t)per_cell);
   double volume = 1;
   for (int d = 0; d < dim; d++) {
-    int cell = (int)(rest % (size_t)cells[d]);
-    rest /= (size_t)cells[d];
-    particles->X[d][p] = (cell + point[inside[d]]) / cells[d];
-    particles->half_length[d][p] = 0.5 * length[inside[d]] / cells[d];
+    int k = (int)(rest % (size_t)particles->lattice[d]), cell = k / per_cell, inside = k % per_cell;
+    rest /= (size_t)particles->lattice[d];
+    particles->X[d][p] = (cell + point[inside]) / cells[d];
+    particles->half_length[d][p] = 0.5 * length[inside] / cells[d];
     particles->F[d * dim + d][p] = 1;
-    volume *= length[inside[d]] / cells[d];
+    volume *= length[inside] / cells[d];
   }
   particles->V0[p] = volume;
   particles->m[p] = density * volume;
@@ -95,8 +93,9 @@ static void place_particle(struct gx_particles *particles, size_t p, const int *
 struct gx_particles *gx_particles_create(int dim, const int *cells, int per_cell, enum gx_layout layout, double density)
 {
   size_t n = 1;
+  int lattice[GX_MAX_DIM] = {0};
   for (int d = 0; d < dim; d++)
-    if (__builtin_mul_overflow(n, (size_t)cells[d] * (size_t)per_cell, &n)) return NULL;
+    if (__builtin_mul_overflow(cells[d], per_cell, &lattice[d]) || __builtin_mul_overflow(n, (size_t)lattice[d], &n)) return NULL;
   struct gx_particles *particles = allocate(dim, n);
   double *point = malloc(2 * (size_t)per_cell * sizeof(double));
   if (!particles || !point || points_of_cell(per_cell, layout, point, point + per_cell)) {
@@ -104,6 +103,7 @@ struct gx_particles *gx_particles_create(int dim, const int *cells, int per_cell
     free(point);
     return NULL;
   }
+  memcpy(particles->lattice, lattice, sizeof lattice);
   for (size_t p = 0; p < n; p++) place_particle(particles, p, cells, per_cell, point, point + per_cell, density);
   free(point);
   return particles;
@@ -112,7 +112,9 @@ struct gx_particles *gx_particles_create(int dim, const int *cells, int per_cell
 struct gx_particles *gx_particles_copy(const struct gx_particles *particles)
 {
   struct gx_particles *copy = allocate(particles->dim, particles->n);
-  if (copy) memcpy(copy->X[0], particles->X[0], stride_of(copy->n) * arrays_of(copy->dim) * sizeof(double));
+  if (!copy) return NULL;
+  memcpy(copy->lattice, particles->lattice, sizeof copy->lattice);
+  memcpy(copy->X[0], particles->X[0], stride_of(copy->n) * arrays_of(copy->dim) * sizeof(double));
   return copy;
 }
 

@@ -128,6 +128,7 @@ enum gx_status gx_integral_place(struct gx_integral *integral, double t)
   struct gx_particles *points = integral->points;
   const struct gx_posed *like = integral->mesh->space.posed;
   if (integral->posed && (!integral->moves || integral->time == t)) return GX_OK;
+  if (integral->moves) memset(points->lattice, 0, sizeof points->lattice);
   for (size_t from = 0; from < points->n && integral->moves; from += BLOCK) {
     const struct part part = part_of(integral, from);
     GX_TRY(find_material(integral, &part, t));

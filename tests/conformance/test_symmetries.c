@@ -181,29 +181,15 @@ static void momentum_is_kept(void **state)
   each_combination(check_momentum);
 }
 
-/* Index of the particle at sign * X + shift cells. Particle ids run inside a cell first, then over cells. */
+/* Index of the particle at sign * X + shift cells. */
 static size_t partner(int dim, size_t p, int sign, int shift)
 {
-  size_t inside = 0, cell = 0, per_cell = 1, cells = 1, rest = p;
-  size_t digit[2 * GX_MAX_DIM];
-  for (int k = 0; k < 2 * dim; k++) {
-    size_t base = (size_t)(k < dim ? per_cell_of(dim) : cells_of(dim));
-    digit[k] = rest % base;
-    rest /= base;
+  size_t base = (size_t)(per_cell_of(dim) * cells_of(dim)), rest = p, there = 0, stride = 1;
+  for (int d = 0; d < dim; d++, rest /= base, stride *= base) {
+    size_t k = sign < 0 ? base - 1 - rest % base : rest % base;
+    there += (k + (size_t)(shift * (d + 1) * per_cell_of(dim))) % base * stride;
   }
-  for (int k = 0; k < 2 * dim; k++) {
-    size_t base = (size_t)(k < dim ? per_cell_of(dim) : cells_of(dim));
-    size_t moved = sign < 0 ? base - 1 - digit[k] : digit[k];
-    if (k >= dim) moved = (moved + (size_t)(shift * (k - dim + 1))) % base;
-    if (k < dim) {
-      inside += moved * per_cell;
-      per_cell *= base;
-    } else {
-      cell += moved * cells;
-      cells *= base;
-    }
-  }
-  return cell * per_cell + inside;
+  return there;
 }
 
 /* Runs the field seen in two views; v, u change sign with the view, F does not. */

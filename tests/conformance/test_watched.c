@@ -201,8 +201,10 @@ static void jumps_along_one_axis_are_those_of_the_bar(void **state)
     CLOSE(thick.measured.max_jump[k], thin.measured.max_jump[k], 1e-10);
     CLOSE(thick.measured.last.jump[k], thin.measured.last.jump[k], 1e-10);
   }
-  CLOSE(thick.measured.last_jump, thin.measured.last_jump, 1e-10);
-  CLOSE(thick.measured.estimated_jump, thin.measured.estimated_jump, 1e-10);
+  /* of two mirror images that jump alike round-off chooses one */
+  double sign = thick.measured.last_jump * thin.measured.last_jump < 0 ? -1 : 1;
+  CLOSE(thick.measured.last_jump, sign * thin.measured.last_jump, 1e-10);
+  CLOSE(thick.measured.estimated_jump, sign * thin.measured.estimated_jump, 1e-10);
 }
 
 static void measuring_jumps_changes_nothing(void **state)

@@ -38,19 +38,42 @@ static void volume_and_mass_are_those_of_the_box(void **state)
       }
 }
 
-/* Cell by cell, first direction fastest, and so within a cell. */
+/* Row by row of the whole box, first direction fastest. */
 static void uniform_positions_by_hand(void **state)
 {
   (void)state;
   struct gx_particles *particles = gx_particles_create(2, (int[]){2, 3}, 2, GX_LAYOUT_UNIFORM, 1);
   assert_int_equal(particles->n, 24);
-  const double first[6][2] = {{1 / 8., 1 / 12.}, {3 / 8., 1 / 12.}, {1 / 8., 3 / 12.},
-                              {3 / 8., 3 / 12.}, {5 / 8., 1 / 12.}, {7 / 8., 1 / 12.}};
+  const double first[6][2] = {{1 / 8., 1 / 12.}, {3 / 8., 1 / 12.}, {5 / 8., 1 / 12.},
+                              {7 / 8., 1 / 12.}, {1 / 8., 3 / 12.}, {3 / 8., 3 / 12.}};
+  assert_int_equal(particles->lattice[0], 4);
+  assert_int_equal(particles->lattice[1], 6);
   for (size_t p = 0; p < 6; p++)
     for (int d = 0; d < 2; d++) NEAR(particles->X[d][p], first[p][d], 1e-16);
   NEAR(particles->X[0][23], 7 / 8., 1e-16);
   NEAR(particles->X[1][23], 11 / 12., 2e-16);
   gx_particles_free(particles);
+}
+
+/* X and half_length of a particle are those of its place along each direction. */
+static void a_lattice_is_a_product(void **state)
+{
+  (void)state;
+  struct gx_particles *made = gx_particles_create(3, cells, 3, GX_LAYOUT_GAUSS, 1), *copy = gx_particles_copy(made);
+  const int *n = copy->lattice;
+  for (int d = 0; d < 3; d++) assert_int_equal(n[d], 3 * cells[d]);
+  for (int k2 = 0, p = 0; k2 < n[2]; k2++)
+    for (int k1 = 0; k1 < n[1]; k1++)
+      for (int k0 = 0; k0 < n[0]; k0++, p++) {
+        const int first[] = {k0, k1 * n[0], k2 * n[1] * n[0]};
+        for (int d = 0; d < 3; d++) {
+          NEAR(copy->X[d][p], copy->X[d][first[d]], 0);
+          NEAR(copy->half_length[d][p], copy->half_length[d][first[d]], 0);
+          assert_true(first[d] == 0 || copy->X[d][p] > copy->X[d][0]);
+        }
+      }
+  gx_particles_free(made);
+  gx_particles_free(copy);
 }
 
 /* n Gauss points a cell integrate x^(2n-1) over the box, and not x^(2n). */
@@ -100,8 +123,11 @@ static void too_many_particles_are_refused(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(volume_and_mass_are_those_of_the_box), cmocka_unit_test(uniform_positions_by_hand),
-      cmocka_unit_test(gauss_points_integrate_polynomials),   cmocka_unit_test(gauss_points_by_hand),
+      cmocka_unit_test(volume_and_mass_are_those_of_the_box),
+      cmocka_unit_test(uniform_positions_by_hand),
+      cmocka_unit_test(a_lattice_is_a_product),
+      cmocka_unit_test(gauss_points_integrate_polynomials),
+      cmocka_unit_test(gauss_points_by_hand),
       cmocka_unit_test(too_many_particles_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
