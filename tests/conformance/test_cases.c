@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Whole cases: every space and the equations of every problem with every clock end well, measures do not change what they measure, a wave along one axis of 2-D
- * and 3-D is the 1-D wave, and a repeated run gives the same bits. */
+/* Whole cases: every space and the equations of every problem with every clock end well, measures do not change what
+ * they measure, and a repeated run gives the same bits. */
 #include <gsl/gsl_errno.h>
 
 #include "case_of.h"
@@ -126,51 +126,6 @@ static void repetition_gives_the_same_bits(void **state)
 {
   (void)state;
   each_method(check_repetition);
-}
-
-/* The 1-D bar, then an axis-aligned wave along each axis of 2-D and 3-D: all particles on a line across move alike. */
-static void check_reduction(struct gx_case bar)
-{
-  if (gx_space_find(bar.value[GX_METHOD_SPACE].text)->collocation) return; /* one dimension only */
-  struct rig line, box;
-  case_set_integer(&bar, GX_MESH_CELLS, 8);
-  case_set_integer(&bar, GX_MESH_PARTICLES_PER_CELL, 2);
-  case_set_integer(&bar, GX_METHOD_DEGREE, 2);
-  case_set_real(&bar, GX_TIME_PERIODS, 0.2);
-  rig_build(&line, &bar, NULL, NULL, NULL);
-  rig_run(&line, -1);
-  const struct gx_particles *thin = line.simulation.particles;
-  for (int dim = 2; dim <= GX_MAX_DIM; dim++)
-    for (int along = 0; along < dim; along++) {
-      static const char *const axes[] = {"x", "y", "z"};
-      struct gx_case one = bar;
-      case_set(&one, GX_PROBLEM_NAME, "axis-aligned");
-      case_set(&one, GX_PROBLEM_ACTIVE, axes[along]);
-      case_set_integer(&one, GX_PROBLEM_DIMENSION, dim);
-      rig_build(&box, &one, NULL, NULL, NULL);
-      rig_run(&box, -1);
-      NEAR(box.simulation.dt, line.simulation.dt, 0);
-      const struct gx_particles *thick = box.simulation.particles;
-      double speed = 2 * M_PI * 0.05 * 100;
-      for (size_t p = 0; p < thick->n; p++) {
-        size_t q = 0;
-        while (q < thin->n && fabs(thin->X[0][q] - thick->X[along][p]) > 1e-12) q++;
-        assert_true(q < thin->n);
-        for (int d = 0; d < dim; d++) {
-          NEAR(thick->u[d][p], d == along ? thin->u[0][q] : 0, 0.05 * 1e-13);
-          NEAR(thick->v[d][p], d == along ? thin->v[0][q] : 0, speed * 1e-13);
-          for (int e = 0; e < dim; e++) NEAR(thick->F[d * dim + e][p], d == along && e == along ? thin->F[0][q] : d == e, 1e-13);
-        }
-      }
-      rig_free(&box);
-    }
-  rig_free(&line);
-}
-
-static void a_wave_along_one_axis_is_the_bar(void **state)
-{
-  (void)state;
-  each_method(check_reduction);
 }
 
 static void shear(struct gx_particles *particles, void *context)
@@ -393,7 +348,6 @@ int main(void)
       cmocka_unit_test(own_equations_end_well),
       cmocka_unit_test(measuring_more_changes_nothing),
       cmocka_unit_test(repetition_gives_the_same_bits),
-      cmocka_unit_test(a_wave_along_one_axis_is_the_bar),
       cmocka_unit_test(spaces_agree_on_shear),
       cmocka_unit_test(gradients_multiply_from_the_left),
       cmocka_unit_test(failures_are_results),

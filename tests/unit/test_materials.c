@@ -157,6 +157,81 @@ static void cauchy_by_hand(void **state)
   NEAR(s[3], bulk, 1e-14);
 }
 
+/* det F by permutations. */
+static double determinant(int dim, const struct tensors *F, int p)
+{
+  double f[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (int i = 0; i < dim; i++)
+    for (int j = 0; j < dim; j++) f[i][j] = F->store[i * dim + j][p];
+  return f[0][0] * (f[1][1] * f[2][2] - f[1][2] * f[2][1]) - f[0][1] * (f[1][0] * f[2][2] - f[1][2] * f[2][0]) +
+         f[0][2] * (f[1][0] * f[2][1] - f[1][1] * f[2][0]);
+}
+
+/* sigma = (mu/J) (F F^T - I) + (lambda ln J/J) I is P F^T/J, with and without the bulk term. */
+static void cauchy_form_is_that_of_piola(void **state)
+{
+  (void)state;
+  const struct gx_material *material = gx_material_find("neo-hookean");
+  for (int dim = 1; dim <= GX_MAX_DIM; dim++)
+    for (int with_bulk = 0; with_bulk < 2; with_bulk++) {
+      struct gx_moduli moduli = gx_material_moduli(7, with_bulk ? 0.3 : 0, 1.5);
+      struct tensors F, P, sigma;
+      uint64_t seed = 31;
+      fill(&F, dim, &seed, 1.1);
+      material->piola(&moduli, dim, N, F.component, point_at(&P)->component);
+      gx_material_cauchy(dim, N, F.component, P.component, point_at(&sigma)->component);
+      for (int p = 0; p < N; p++) {
+        double J = determinant(dim, &F, p);
+        for (int i = 0; i < dim; i++)
+          for (int j = 0; j < dim; j++) {
+            double left = 0; /* (F F^T)_ij */
+            for (int k = 0; k < dim; k++) left += F.store[i * dim + k][p] * F.store[j * dim + k][p];
+            double expected = moduli.mu * (left - (i == j)) / J + (i == j ? moduli.lambda * log(J) / J : 0);
+            NEAR(sigma.store[i * dim + j][p], expected, 1e-14 * moduli.young);
+          }
+      }
+    }
+}
+
+/* A body in `dim` dimensions is one in 3-D whose other directions do not move: plane strain in 2-D, uniaxial strain in 1-D. The
+ * walls across carry P_zz = lambda ln J. */
+static void fewer_dimensions_are_plane_strain(void **state)
+{
+  (void)state;
+  const struct gx_material *material = gx_material_find("neo-hookean");
+  struct gx_moduli moduli = gx_material_moduli(7, 0.3, 1.5);
+  for (int dim = 1; dim < 3; dim++) {
+    struct tensors flat, rate, P, rate_P, solid = {0}, solid_rate = {0}, solid_P, solid_rate_P;
+    double W[N], solid_W[N];
+    uint64_t seed = 37;
+    fill(&flat, dim, &seed, 1.1);
+    fill(&rate, dim, &seed, 0.2);
+    for (int p = 0; p < N; p++)
+      for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+          bool moves = i < dim && j < dim;
+          solid.store[3 * i + j][p] = moves ? flat.store[i * dim + j][p] : i == j;
+          solid_rate.store[3 * i + j][p] = moves ? rate.store[i * dim + j][p] : 0;
+        }
+    point_at(&solid), point_at(&solid_rate);
+    material->piola(&moduli, dim, N, flat.component, point_at(&P)->component);
+    material->piola(&moduli, 3, N, solid.component, point_at(&solid_P)->component);
+    material->piola_rate(&moduli, dim, N, flat.component, rate.component, point_at(&rate_P)->component);
+    material->piola_rate(&moduli, 3, N, solid.component, solid_rate.component, point_at(&solid_rate_P)->component);
+    material->energy(&moduli, dim, N, flat.component, W);
+    material->energy(&moduli, 3, N, solid.component, solid_W);
+    for (int p = 0; p < N; p++) {
+      for (int i = 0; i < dim; i++)
+        for (int j = 0; j < dim; j++) {
+          NEAR(P.store[i * dim + j][p], solid_P.store[3 * i + j][p], 1e-14 * moduli.young);
+          NEAR(rate_P.store[i * dim + j][p], solid_rate_P.store[3 * i + j][p], 1e-13 * moduli.young);
+        }
+      NEAR(solid_P.store[8][p], moduli.lambda * log(determinant(dim, &flat, p)), 1e-14 * moduli.young);
+      NEAR(W[p], solid_W[p], 1e-14 * moduli.young);
+    }
+  }
+}
+
 static void check_symmetry(const struct gx_material *material, const struct gx_moduli *moduli, int dim)
 {
   struct tensors F, P, sigma;
@@ -260,6 +335,8 @@ int main(void)
       cmocka_unit_test(stress_rate_is_the_derivative_of_stress),
       cmocka_unit_test(one_dimension_by_hand),
       cmocka_unit_test(cauchy_by_hand),
+      cmocka_unit_test(cauchy_form_is_that_of_piola),
+      cmocka_unit_test(fewer_dimensions_are_plane_strain),
       cmocka_unit_test(cauchy_stress_is_symmetric),
       cmocka_unit_test(rotations_change_nothing),
       cmocka_unit_test(undeformed_is_free_of_stress),
