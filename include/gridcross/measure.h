@@ -22,6 +22,8 @@ struct gx_sample {
   double kinetic, kinetic_nodes;         /* J: of particles, of nodes */
   double elastic, work;                  /* J: strain energy, work of the body force since t = 0 */
   double defect;                         /* J: energy defect of the step that ended here */
+  double momentum[GX_MAX_DIM];           /* kg m/s: sum m v of particles */
+  double angular[GX_MAX_DIM];            /* kg m^2/s: sum m x cross v, about the origin; in 2-D the last component alone */
   double crossings;                      /* changes of cell so far */
   double jump[GX_NORMS];                 /* m: of the particles' jump errors, summed up so far */
   double jump_step;                      /* m: largest jump error of the step that ended here, with its sign; 0: no crossing */
@@ -41,6 +43,10 @@ struct gx_measured {
   double max_jump[GX_NORMS];
   double last_jump, estimated_jump; /* m: jump error of the last crossing, steffen2010 eq. 86, and minus eq. 85; NaN: none */
   double drift;                     /* max |E - E0 - work| / E0; NaN when E0 = 0 */
+  /* Largest change over the run of linear momentum, relative to the largest sqrt(sum m sum m v^2), and of angular momentum,
+   * relative to the largest sqrt(sum m |x - xc|^2 sum m v^2), xc the centre of mass: bounds of sum m |v| and
+   * sum m |x - xc| |v| that do not vanish for a body that vibrates at rest. NaN: the problem does not keep it, or nothing moves. */
+  double momentum_change, angular_change;
   double probe_change; /* m/s^2: largest change of the probe's acceleration over a step within one cell; NaN: no probe */
 };
 
@@ -53,6 +59,9 @@ struct gx_measure *gx_measure_create(struct gx_space *space, const struct gx_clo
 void gx_measure_free(struct gx_measure *measure);
 /* Measures jump errors from now on; before the first sample, of a space with cells and a field. -1 when memory runs out. */
 int gx_measure_jumps(struct gx_measure *measure);
+/* The problem keeps linear or angular momentum: how far a run changes them is measured from now on, where energies are; before
+ * the first sample. */
+void gx_measure_momentum(struct gx_measure *measure, bool linear, bool angular);
 /* After each step of dt when jump errors are measured, before anything else. */
 void gx_measure_step(struct gx_measure *measure, double dt);
 /* Follows one particle from now on; before the first sample. */

@@ -23,6 +23,17 @@ GX_CLONES double gx_vector_sum(size_t n, const double *restrict value)
   return sum;
 }
 
+GX_CLONES double gx_vector_dot(size_t n, const double *a, const double *b)
+{
+  double part[LANES] = {0}, sum = 0;
+  size_t whole = n - n % LANES;
+  for (size_t i = 0; i < whole; i += LANES)
+    for (size_t k = 0; k < LANES; k++) part[k] += a[i + k] * b[i + k];
+  for (size_t i = whole; i < n; i++) part[i - whole] += a[i] * b[i];
+  for (int k = 0; k < LANES; k++) sum += part[k];
+  return sum;
+}
+
 GX_CLONES double gx_vector_square(size_t n, const double *restrict weight, const double *restrict value)
 {
   double part[LANES] = {0}, sum = 0;

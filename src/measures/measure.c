@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Samples a run at ends of steps: error norms against the exact solution, energies, the energy defect of a step, crossings.
+/* Samples a run at ends of steps: error norms against the exact solution, energies, the energy defect of a step, momentum, crossings.
  * Velocities that live at half steps are brought to the end of step with half a kick. */
 #include <gridcross/measure.h>
 
@@ -10,6 +10,7 @@
 #include "../core/kernel.h"
 #include "../core/vector.h"
 #include "jump.h"
+#include "momentum.h"
 
 const struct gx_measure_name gx_measure_quantity[GX_QUANTITIES] = {
     [GX_DISPLACEMENT] = {"displacement", "m"}, [GX_VELOCITY] = {"velocity", "m/s"}, [GX_STRESS] = {"stress", "Pa"}};
@@ -40,6 +41,10 @@ struct gx_measure {
   double work;              /* of the kicks done so far, J */
   double start_energy;      /* kinetic and elastic at the first sample, J */
   double start_balance;     /* the same less work, J */
+  bool linear, angular;     /* momenta that the problem keeps */
+  double start_momentum[GX_MAX_DIM], start_angular[GX_MAX_DIM];
+  double linear_change, angular_change; /* largest so far, kg m/s and kg m^2/s */
+  double linear_size, angular_size;     /* likewise */
   struct gx_measured result;
   double *block;
 };
@@ -73,6 +78,7 @@ struct gx_measure *gx_measure_create(struct gx_space *space, const struct gx_clo
     for (int k = 0; k < GX_NORMS; k++)
       if (level == GX_MEASURE_FINAL || (q == GX_STRESS && !material->piola)) result->max_error[q][k] = NAN;
   if (level != GX_MEASURE_ALL) result->max_defect = result->drift = NAN;
+  result->momentum_change = result->angular_change = NAN;
   result->probe_change = result->last_jump = result->estimated_jump = NAN;
   for (int k = 0; k < GX_NORMS; k++) result->max_jump[k] = NAN;
   result->last.crossings = level == GX_MEASURE_FINAL ? NAN : 0;
@@ -104,6 +110,12 @@ int gx_measure_jumps(struct gx_measure *measure)
   measure->jump = gx_jump_create(measure->space, measure->cells);
   for (int k = 0; k < GX_NORMS && measure->level != GX_MEASURE_FINAL; k++) measure->result.max_jump[k] = 0;
   return measure->jump ? 0 : -1;
+}
+
+void gx_measure_momentum(struct gx_measure *measure, bool linear, bool angular)
+{
+  measure->linear = linear && measure->level == GX_MEASURE_ALL;
+  measure->angular = angular && measure->level == GX_MEASURE_ALL;
 }
 
 void gx_measure_step(struct gx_measure *measure, double dt)
@@ -371,6 +383,27 @@ static void keep_extremes(struct gx_measure *measure, const struct gx_sample *sa
     result->drift = fmax(result->drift, fabs(balance - measure->start_balance) / measure->start_energy);
 }
 
+/* Of the sample and, largest so far, relative to the largest sizes so far. */
+static void momenta(struct gx_measure *measure, struct gx_sample *sample)
+{
+  double *const scratch[] = {measure->scratch, measure->P.component[0]};
+  struct gx_momentum now = gx_momentum_of(measure->space->particles, measure->v.component, scratch);
+  memcpy(sample->momentum, now.linear, sizeof sample->momentum);
+  memcpy(sample->angular, now.angular, sizeof sample->angular);
+  if (!measure->started) {
+    memcpy(measure->start_momentum, now.linear, sizeof measure->start_momentum);
+    memcpy(measure->start_angular, now.angular, sizeof measure->start_angular);
+  }
+  measure->linear_size = fmax(measure->linear_size, now.linear_size);
+  measure->angular_size = fmax(measure->angular_size, now.angular_size);
+  measure->linear_change = fmax(measure->linear_change, gx_momentum_distance(now.linear, measure->start_momentum));
+  measure->angular_change = fmax(measure->angular_change, gx_momentum_distance(now.angular, measure->start_angular));
+  if (measure->linear && measure->linear_size > 0)
+    measure->result.momentum_change = measure->linear_change / measure->linear_size;
+  if (measure->angular && measure->angular_size > 0)
+    measure->result.angular_change = measure->angular_change / measure->angular_size;
+}
+
 static void jumps(const struct gx_measure *measure, struct gx_sample *sample)
 {
   memset(measure->scratch, 0, measure->n * sizeof(double));
@@ -389,11 +422,14 @@ enum gx_status gx_measure_take(struct gx_measure *measure, struct gx_stepper *st
                              .elastic = NAN,
                              .work = NAN,
                              .defect = NAN,
+                             .momentum = {NAN, NAN, NAN},
+                             .angular = {NAN, NAN, NAN},
                              .jump = {NAN, NAN, NAN},
                              .jump_step = NAN};
   GX_TRY(synchronise(measure, stepper, t, dt));
   errors(measure, t, sample.error);
   if (measure->level == GX_MEASURE_ALL) energies(measure, dt, &sample);
+  if (measure->level == GX_MEASURE_ALL && !measure->space->posed->problem->space) momenta(measure, &sample);
   if (measure->jump) jumps(measure, &sample);
   if (measure->followed >= 0)
     for (int d = 0; d < measure->dim; d++) cell[d] = measure->cell.component[d][measure->followed];

@@ -139,6 +139,9 @@ static enum gx_status prepare(struct run *run, const struct gx_case *one, double
   const int *cells = simulation->space->through_cells ? simulation->space_options.cells : NULL;
   run->measure = gx_measure_create(simulation->space, simulation->clock, cells, run->level);
   if (!run->measure) return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the measures");
+  bool linear, angular;
+  gx_simulation_conserves(simulation, &linear, &angular);
+  gx_measure_momentum(run->measure, linear, angular);
   struct gx_work_observer observer = gx_measure_work(run->measure);
   run->stepper = gx_stepper_create(simulation->clock, simulation->space, &observer);
   if (!run->stepper) return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the clock");

@@ -203,6 +203,15 @@ void gx_simulation_free(struct gx_simulation *simulation)
   gx_particles_free(simulation->particles);
 }
 
+void gx_simulation_conserves(const struct gx_simulation *simulation, bool *linear, bool *angular)
+{
+  const struct gx_space_options *options = &simulation->space_options;
+  *linear = !simulation->problem->body && !simulation->problem->space;
+  for (int d = 0; d < GX_MAX_DIM; d++)
+    if (!options->periodic && (options->held[d][0] || options->held[d][1])) *linear = false;
+  *angular = *linear && simulation->problem_options.dim > 1 && !options->periodic;
+}
+
 double gx_simulation_kinetic_bound(const struct gx_simulation *simulation)
 {
   enum { SAMPLES = 8 }; /* a standing wave peaks at quarters of its period, what has no period at the end */

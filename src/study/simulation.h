@@ -29,6 +29,9 @@ enum gx_status gx_simulation_plan(struct gx_simulation *simulation, const struct
 /* Allocates and sets the initial state. simulation is freed by gx_simulation_free in any case. */
 enum gx_status gx_simulation_build(struct gx_simulation *simulation, struct gx_outcome *outcome);
 void gx_simulation_free(struct gx_simulation *simulation);
+/* Whether the problem itself keeps linear, and angular, momentum: no body force, nothing held, and for angular momentum no
+ * periodic images that pull at the body's ends. */
+void gx_simulation_conserves(const struct gx_simulation *simulation, bool *linear, bool *angular);
 /* Largest kinetic energy of the exact solution over a period, or up to the end where there is none, sampled, J. */
 double gx_simulation_kinetic_bound(const struct gx_simulation *simulation);
 

@@ -116,6 +116,8 @@ static void put_case(struct cursor *at, const struct gx_case *one, const struct 
   }
   put_real(at, "result.energy.defect", "J", ok ? measured->max_defect : NAN);
   put_real(at, "result.energy.drift", "", ok ? measured->drift : NAN);
+  put_real(at, "result.momentum.linear", "", ok ? measured->momentum_change : NAN);
+  put_real(at, "result.momentum.angular", "", ok ? measured->angular_change : NAN);
   for (int q = 0; q < GX_QUANTITIES; q++) put_errors(at, "result.", ".reference", result->reference, q, ok);
   for (int n = 0; n < GX_NORMS; n++) put_norm(at, "result.jump.final", n, ok ? measured->last.jump[n] : NAN);
   for (int n = 0; n < GX_NORMS; n++) put_norm(at, "result.jump.max", n, ok ? measured->max_jump[n] : NAN);
@@ -130,6 +132,20 @@ static void put_case(struct cursor *at, const struct gx_case *one, const struct 
   if (!timing) return;
   put_real(at, "result.seconds", "s", ran ? result->seconds : NAN);
   put_real(at, "result.ns_per_particle_step", "ns", ran ? result->ns_per_particle_step : NAN);
+}
+
+/* Linear momentum by component; angular momentum: none in 1-D, along z in 2-D, a vector in 3-D. */
+static void put_momentum(struct cursor *at, int dim, const struct gx_sample *sample)
+{
+  char name[80];
+  for (int d = 0; d < dim; d++) {
+    snprintf(name, sizeof name, "momentum.%c", "xyz"[d]);
+    put_real(at, name, "kg m/s", sample->momentum[d]);
+  }
+  for (int d = dim == 3 ? 0 : 2; d < GX_MAX_DIM && dim > 1; d++) {
+    snprintf(name, sizeof name, "angular.%c", "xyz"[d]);
+    put_real(at, name, "kg m^2/s", sample->angular[d]);
+  }
 }
 
 /* One column in 1-D, one a component in 2-D and 3-D. */
@@ -158,7 +174,7 @@ static void put_probe(struct cursor *at, int dim, bool jumps, const struct gx_pr
   if (jumps) put_vector(at, "probe.jump", "m", dim, probe->jump);
 }
 
-static void put_sample(struct cursor *at, const struct gx_sample *sample)
+static void put_sample(struct cursor *at, int dim, const struct gx_sample *sample)
 {
   put_real(at, "time", "s", sample->time);
   for (int q = 0; q < GX_QUANTITIES; q++) put_errors(at, "", "", sample->error, q, true);
@@ -167,6 +183,7 @@ static void put_sample(struct cursor *at, const struct gx_sample *sample)
   put_real(at, "energy.elastic", "J", sample->elastic);
   put_real(at, "energy.work", "J", sample->work);
   put_real(at, "energy.defect", "J", sample->defect);
+  put_momentum(at, dim, sample);
   put_real(at, "crossings", "", sample->crossings);
 }
 
@@ -206,7 +223,7 @@ struct gx_table *gx_study_table(const struct gx_study *study, const struct gx_re
 static void put_row(struct cursor *at, const struct gx_history *history, const struct gx_sample *sample,
                     const struct gx_probe *probe, const struct gx_budget_values *budget)
 {
-  put_sample(at, sample);
+  put_sample(at, history->dim, sample);
   if (history->jumps) put_jumps(at, sample);
   if (history->probe) put_probe(at, history->dim, history->jumps, probe);
   if (history->budget) put_budget(at, "", budget, true);

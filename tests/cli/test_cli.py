@@ -234,7 +234,7 @@ assert p["format"] == 1 and p["title"] == "small" and p["run_file"].startswith("
 assert all(p[k] for k in ("version", "git_revision", "compiler", "flags", "gsl", "fftw", "hdf5", "yaml"))
 h = f["histories"][t["case"].asstr()[0]]
 assert len(h["time"]) > 2 and h["time"].attrs["unit"] == "s" and h["stress.rms"].attrs["unit"] == "Pa"
-assert set(h) >= {"displacement.inf", "energy.kinetic", "energy.kinetic_nodes", "energy.elastic", "energy.work",
+assert set(h) >= {"displacement.inf", "energy.kinetic", "momentum.x", "energy.kinetic_nodes", "energy.elastic", "energy.work",
                   "energy.defect", "crossings"}
 with h5py.File(sys.argv[2], "w") as g:
     g["x"] = 1

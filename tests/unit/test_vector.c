@@ -28,6 +28,20 @@ static void squares(void **state)
   }
 }
 
+static void products(void **state)
+{
+  (void)state;
+  double a[MOST], b[MOST], sum = 0;
+  for (int i = 0; i < MOST; i++) {
+    a[i] = i - 3;
+    b[i] = i % 5 - 2;
+  }
+  for (int n = 0; n <= MOST; n++) {
+    NEAR(gx_vector_dot((size_t)n, a, b), sum, 0);
+    if (n < MOST) sum += (n - 3) * (n % 5 - 2);
+  }
+}
+
 static void maxima(void **state)
 {
   (void)state;
@@ -46,6 +60,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(sums),
       cmocka_unit_test(squares),
+      cmocka_unit_test(products),
       cmocka_unit_test(maxima),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
