@@ -39,18 +39,11 @@ static inline bool rig_build(struct rig *rig, const struct gx_case *one, const s
   *rig = (struct rig){.outcome = {.status = GX_OK, .particle = -1}};
   struct gx_simulation *simulation = &rig->simulation;
   if (gx_simulation_plan(simulation, one, &rig->outcome)) return false;
-  const struct gx_problem_options *options = &simulation->problem_options;
-  struct gx_particles *particles = gx_particles_create(options->dim, simulation->space_options.cells, simulation->per_cell,
-                                                       simulation->layout, options->moduli.density);
-  simulation->particles = particles;
-  if (order) rig_reorder(particles, order);
-  simulation->posed = gx_problem_pose(simulation->problem, options, particles->n, particles->X);
-  double start = simulation->start, behind = simulation->clock->staggered ? 0.5 * simulation->dt : 0;
-  simulation->problem->exact(simulation->posed, start, particles->u, NULL, particles->F, NULL);
-  simulation->problem->exact(simulation->posed, start - behind, NULL, particles->v, NULL, NULL);
-  if (alter) alter(particles, context);
-  enum gx_status status = simulation->kind->create(simulation->kind, &simulation->space, &simulation->space_options, particles,
-                                                   simulation->posed, &rig->outcome);
+  enum gx_status status = gx_simulation_lay_out(simulation, &rig->outcome);
+  if (order) rig_reorder(simulation->particles, order);
+  if (status == GX_OK) status = gx_simulation_pose(simulation, &rig->outcome);
+  if (alter) alter(simulation->particles, context);
+  if (status == GX_OK) status = gx_simulation_open(simulation, &rig->outcome);
   CHECK(status == GX_OK, "%s", rig->outcome.reason);
   rig->stepper = gx_stepper_create(simulation->clock, simulation->space, NULL);
   return true;

@@ -33,7 +33,7 @@ struct gx_sample {
 struct gx_probe {
   double u[GX_MAX_DIM], v[GX_MAX_DIM], a[GX_MAX_DIM]; /* displacement, velocity, acceleration; m, m/s, m/s^2 */
   double jump[GX_MAX_DIM];                            /* jump errors summed up, m; NaN: not measured */
-  double u_error[GX_MAX_DIM], v_error[GX_MAX_DIM];    /* less the exact ones */
+  double u_error[GX_MAX_DIM], v_error[GX_MAX_DIM];    /* less the exact ones; NaN: unknown */
 };
 
 struct gx_measured {

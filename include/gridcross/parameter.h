@@ -24,6 +24,13 @@ enum gx_parameter_id {
   GX_PROBLEM_JUMP,
   GX_PROBLEM_VARIANT,
   GX_PROBLEM_PARTICLE_WIDTH,
+  GX_PROBLEM_VELOCITY,
+  GX_PROBLEM_SPIN,
+  GX_BODY_SHAPE,
+  GX_BODY_CENTRE,
+  GX_BODY_SIZE,
+  GX_BODY_RADIUS,
+  GX_BODY_INNER_RADIUS,
   GX_MESH_CELLS,
   GX_MESH_PARTICLES_PER_CELL,
   GX_MESH_LAYOUT,
@@ -82,7 +89,10 @@ int gx_parameter_find(const char *path);
 /* The default that the table gives; null when there is none or it depends on other parameters. */
 struct gx_value gx_parameter_default(enum gx_parameter_id id);
 
-/* Completes a case: fills null values with defaults, then nulls what does not apply. value: [GX_PARAMETERS]; problem.name must be
+/* Fills null values with the defaults that the problem has of its own (gx_problem.standard). value: as below. */
+void gx_parameter_own(struct gx_value *value);
+
+/* Completes a case: fills null values with defaults, the problem's own first, then nulls what does not apply. value: [GX_PARAMETERS]; problem.name must be
  * that of a problem, the others null or within range. */
 void gx_parameter_resolve(struct gx_value *value);
 

@@ -3,6 +3,7 @@
 #ifndef GRIDCROSS_PARTICLES_H
 #define GRIDCROSS_PARTICLES_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include <gridcross/status.h>
@@ -36,6 +37,10 @@ struct gx_particles {
 /* Particles at rest, F = I, in the box [0,1]^dim of cells[d] cells with per_cell particles per cell and direction,
  * a complete lattice. density: kg/m^dim. NULL when memory runs out or the particles cannot be counted. */
 struct gx_particles *gx_particles_create(int dim, const int *cells, int per_cell, enum gx_layout layout, double density);
+/* Those of them, in the same order, that are inside a body (NULL: all); there may be none. */
+struct gx_particles *gx_particles_fill(int dim, const int *cells, int per_cell, enum gx_layout layout, double density,
+                                       bool (*inside)(const void *body, const double *X), const void *body);
+
 /* A copy with its own memory; NULL when that runs out. */
 struct gx_particles *gx_particles_copy(const struct gx_particles *particles);
 void gx_particles_free(struct gx_particles *particles);

@@ -7,7 +7,7 @@ enum gx_status {
   GX_OK,
   GX_LEFT_DOMAIN, /* a particle passed a fixed end */
   GX_TANGLED,     /* det F <= 0, or a particle domain outgrew its cell */
-  GX_UNSTABLE,    /* kinetic energy far above the exact solution's, or not finite */
+  GX_UNSTABLE,    /* kinetic energy far above the exact solution's, or all that there is, or not finite */
   GX_SINGULAR,    /* the consistent mass matrix is not positive definite */
   GX_REFUSED,     /* the combination of methods has no meaning; the reason says why */
   GX_FAILED,      /* an internal failure: out of memory, disk full */

@@ -71,42 +71,80 @@ static int points_of_cell(int per_cell, enum gx_layout layout, double *point, do
   return 0;
 }
 
-/* Digits of p: the point along each direction, first direction fastest. */
-static void place_particle(struct gx_particles *particles, size_t p, const int *cells, int per_cell, const double *point,
-                           const double *length, double density)
+/* The places of the particles in the box. */
+struct places {
+  int dim, per_cell, count[GX_MAX_DIM]; /* along each direction */
+  const int *cells;
+  double *point, *length; /* [per_cell] of a cell */
+};
+
+/* Digits of i: the point along each direction, first direction fastest. */
+static void locate(const struct places *places, size_t i, double *X, double *length)
+{
+  for (int d = 0; d < places->dim; d++) {
+    int k = (int)(i % (size_t)places->count[d]), cell = k / places->per_cell, inside = k % places->per_cell;
+    i /= (size_t)places->count[d];
+    X[d] = (cell + places->point[inside]) / places->cells[d];
+    length[d] = places->length[inside] / places->cells[d];
+  }
+}
+
+static void put(struct gx_particles *particles, size_t p, const double *X, const double *length, double volume, double density)
 {
   int dim = particles->dim;
-  size_t rest = p;
-  double volume = 1;
   for (int d = 0; d < dim; d++) {
-    int k = (int)(rest % (size_t)particles->lattice[d]), cell = k / per_cell, inside = k % per_cell;
-    rest /= (size_t)particles->lattice[d];
-    particles->X[d][p] = (cell + point[inside]) / cells[d];
-    particles->half_length[d][p] = 0.5 * length[inside] / cells[d];
+    particles->X[d][p] = X[d];
+    particles->half_length[d][p] = 0.5 * length[d];
     particles->F[d * dim + d][p] = 1;
-    volume *= length[inside] / cells[d];
   }
   particles->V0[p] = volume;
   particles->m[p] = density * volume;
 }
 
-struct gx_particles *gx_particles_create(int dim, const int *cells, int per_cell, enum gx_layout layout, double density)
+/* total: of the places. */
+static struct gx_particles *fill(const struct places *places, size_t total, double density,
+                                 bool (*inside)(const void *body, const double *X), const void *body)
 {
-  size_t n = 1;
-  int lattice[GX_MAX_DIM] = {0};
-  for (int d = 0; d < dim; d++)
-    if (__builtin_mul_overflow(cells[d], per_cell, &lattice[d]) || __builtin_mul_overflow(n, (size_t)lattice[d], &n)) return NULL;
-  struct gx_particles *particles = allocate(dim, n);
-  double *point = malloc(2 * (size_t)per_cell * sizeof(double));
-  if (!particles || !point || points_of_cell(per_cell, layout, point, point + per_cell)) {
-    gx_particles_free(particles);
-    free(point);
-    return NULL;
+  double X[GX_MAX_DIM], length[GX_MAX_DIM];
+  size_t n = inside ? 0 : total;
+  for (size_t i = 0; i < total && inside; i++) {
+    locate(places, i, X, length);
+    n += inside(body, X);
   }
-  memcpy(particles->lattice, lattice, sizeof lattice);
-  for (size_t p = 0; p < n; p++) place_particle(particles, p, cells, per_cell, point, point + per_cell, density);
+  struct gx_particles *particles = allocate(places->dim, n);
+  if (particles && n == total) memcpy(particles->lattice, places->count, sizeof particles->lattice);
+  for (size_t i = 0, p = 0; particles && p < n; i++) {
+    locate(places, i, X, length);
+    if (inside && !inside(body, X)) continue;
+    double volume = 1;
+    for (int d = 0; d < places->dim; d++) volume *= length[d];
+    put(particles, p++, X, length, volume, density);
+  }
+  return particles;
+}
+
+struct gx_particles *gx_particles_fill(int dim, const int *cells, int per_cell, enum gx_layout layout, double density,
+                                       bool (*inside)(const void *body, const double *X), const void *body)
+{
+  struct places places = {.dim = dim, .per_cell = per_cell, .cells = cells};
+  size_t total = 1;
+  for (int d = 0; d < dim; d++)
+    if (__builtin_mul_overflow(cells[d], per_cell, &places.count[d]) ||
+        __builtin_mul_overflow(total, (size_t)places.count[d], &total))
+      return NULL;
+  double *point = malloc(2 * (size_t)per_cell * sizeof(double));
+  struct gx_particles *particles = NULL;
+  places.point = point;
+  places.length = point + per_cell;
+  if (point && !points_of_cell(per_cell, layout, places.point, places.length))
+    particles = fill(&places, total, density, inside, body);
   free(point);
   return particles;
+}
+
+struct gx_particles *gx_particles_create(int dim, const int *cells, int per_cell, enum gx_layout layout, double density)
+{
+  return gx_particles_fill(dim, cells, per_cell, layout, density, NULL, NULL);
 }
 
 struct gx_particles *gx_particles_copy(const struct gx_particles *particles)

@@ -76,7 +76,8 @@ struct gx_measure *gx_measure_create(struct gx_space *space, const struct gx_clo
   struct gx_measured *result = &measure->result;
   for (int q = 0; q < GX_QUANTITIES; q++)
     for (int k = 0; k < GX_NORMS; k++)
-      if (level == GX_MEASURE_FINAL || (q == GX_STRESS && !material->piola)) result->max_error[q][k] = NAN;
+      if (level == GX_MEASURE_FINAL || !space->posed->problem->exact || (q == GX_STRESS && !material->piola))
+        result->max_error[q][k] = NAN;
   if (level != GX_MEASURE_ALL) result->max_defect = result->drift = NAN;
   result->momentum_change = result->angular_change = NAN;
   result->probe_change = result->last_jump = result->estimated_jump = NAN;
@@ -181,28 +182,29 @@ static void norms(const struct gx_measure *measure, int components, double *cons
   norms_of_squares(measure, error);
 }
 
-static void no_stress(double error[GX_QUANTITIES][GX_NORMS])
+static void no_error(enum gx_quantity quantity, double error[GX_QUANTITIES][GX_NORMS])
 {
-  for (int k = 0; k < GX_NORMS; k++) error[GX_STRESS][k] = NAN;
+  for (int k = 0; k < GX_NORMS; k++) error[quantity][k] = NAN;
 }
 
+/* Keeps the stress of the particles too, which a reference run is compared by. */
 static void errors(struct gx_measure *measure, double t, double error[GX_QUANTITIES][GX_NORMS])
 {
   const struct gx_particles *particles = measure->space->particles;
   const struct gx_posed *posed = measure->space->posed;
   const struct gx_material *material = posed->problem->material;
-  const struct gx_moduli *moduli = &posed->options.moduli;
   int dim = measure->dim;
   size_t n = measure->n;
   double **P = measure->P.component;
+  for (int q = 0; q < GX_QUANTITIES; q++) no_error((enum gx_quantity)q, error);
+  if (material->piola) gx_material_cauchy(dim, n, particles->F, particles->P, measure->stress.component);
+  if (!posed->problem->exact) return;
   posed->problem->exact(posed, t, measure->exact_u.component, measure->exact_v.component, measure->exact_F.component, NULL);
   norms(measure, dim, particles->u, measure->exact_u.component, error[GX_DISPLACEMENT]);
   norms(measure, dim, measure->v.component, measure->exact_v.component, error[GX_VELOCITY]);
-  no_stress(error);
   if (!material->piola) return;
-  material->piola(moduli, dim, n, measure->exact_F.component, P);
+  material->piola(&posed->options.moduli, dim, n, measure->exact_F.component, P);
   gx_material_cauchy(dim, n, measure->exact_F.component, P, measure->exact_stress.component);
-  gx_material_cauchy(dim, n, particles->F, particles->P, measure->stress.component);
   norms(measure, dim * dim, measure->stress.component, measure->exact_stress.component, error[GX_STRESS]);
 }
 
@@ -224,7 +226,7 @@ void gx_measure_difference(const struct gx_measure *measure, const struct gx_mea
   int dim = measure->dim;
   norms(measure, dim, measure->space->particles->u, other->space->particles->u, error[GX_DISPLACEMENT]);
   norms(measure, dim, measure->v.component, other->v.component, error[GX_VELOCITY]);
-  no_stress(error);
+  no_error(GX_STRESS, error);
   if (measure->space->posed->problem->material->piola)
     norms(measure, dim * dim, measure->stress.component, other->stress.component, error[GX_STRESS]);
 }
@@ -346,7 +348,7 @@ static void follow(struct gx_measure *measure, const double *cell)
   const struct gx_particles *particles = measure->space->particles;
   struct gx_probe *probe = &measure->probe;
   double square = 0;
-  bool stayed = true;
+  bool stayed = true, exact = measure->space->posed->problem->exact;
   for (int d = 0; d < measure->dim; d++) {
     stayed = stayed && measure->cell.component[d][p] == cell[d];
     double a = measure->a.component[d][p], change = a - probe->a[d];
@@ -355,8 +357,8 @@ static void follow(struct gx_measure *measure, const double *cell)
     probe->u[d] = particles->u[d][p];
     probe->jump[d] = measure->jump ? measure->jump->sum[d][p] : NAN;
     probe->v[d] = measure->v.component[d][p];
-    probe->u_error[d] = probe->u[d] - measure->exact_u.component[d][p];
-    probe->v_error[d] = probe->v[d] - measure->exact_v.component[d][p];
+    probe->u_error[d] = exact ? probe->u[d] - measure->exact_u.component[d][p] : NAN;
+    probe->v_error[d] = exact ? probe->v[d] - measure->exact_v.component[d][p] : NAN;
   }
   struct gx_measured *result = &measure->result;
   if (measure->started && stayed && measure->level != GX_MEASURE_FINAL)

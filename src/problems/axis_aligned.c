@@ -69,8 +69,12 @@ const struct gx_problem gx_axis_aligned = {
     .max_dim = 3,
     .has_directions = true,
     .has_poisson = true,
-    .periodic = true,
+    .boundaries = 1u << GX_BOUNDARY_PERIODIC | 1u << GX_BOUNDARY_FIXED,
+    .boundary = GX_BOUNDARY_PERIODIC,
+    .has_amplitude = true,
+    .waves = true,
     .cycles = 2,
+    .check = gx_standing_wave_check,
     .exact = gx_axis_aligned_exact,
     .body = gx_axis_aligned_body,
 };

@@ -18,6 +18,11 @@ const struct gx_problem gx_bar_linear = {
     .material = &gx_linear_elastic,
     .max_dim = 1,
     .has_mode = true,
+    .boundaries = 1u << GX_BOUNDARY_PERIODIC | 1u << GX_BOUNDARY_FIXED,
+    .boundary = GX_BOUNDARY_FIXED,
+    .has_amplitude = true,
+    .waves = true,
     .cycles = 1,
+    .check = gx_standing_wave_check,
     .exact = exact,
 };

@@ -68,5 +68,6 @@ const struct gx_problem gx_jump_model = {
     .space = "velocity-field",
     .max_dim = 1,
     .has_knots = true,
+    .end = 0.4,
     .exact = gx_jump_model_exact,
 };

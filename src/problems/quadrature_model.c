@@ -43,5 +43,6 @@ const struct gx_problem gx_quadrature_model = {
     .max_dim = 1,
     .has_knots = true,
     .has_jump = true,
+    .end = 0.4,
     .exact = gx_jump_model_exact,
 };

@@ -27,4 +27,13 @@ static inline void gx_standing_wave_exact(const struct gx_posed *posed, double o
   }
 }
 
+static inline enum gx_status gx_standing_wave_check(const struct gx_problem_options *options, struct gx_outcome *outcome)
+{
+  double slope = 2 * M_PI * options->mode * fabs(options->amplitude);
+  if (slope < 1) return GX_OK;
+  return gx_status_set(outcome, GX_REFUSED, -1,
+                       "the exact solution itself tangles: its least F is %.4g; amplitude must stay below %.6g", 1 - slope,
+                       1 / (2 * M_PI * options->mode));
+}
+
 #endif

@@ -294,8 +294,8 @@ static enum gx_status take_steps(struct run *run)
     double kinetic = kinetic_energy(run);
     if (isnan(kinetic)) return gx_status_set(&result->outcome, GX_UNSTABLE, -1, "a velocity is not a number");
     if (!(kinetic <= run->kinetic_limit))
-      return gx_status_set(&result->outcome, GX_UNSTABLE, -1, "kinetic energy %.4g J, over 25 times the exact solution's",
-                           kinetic);
+      return gx_status_set(&result->outcome, GX_UNSTABLE, -1, "kinetic energy %.4g J, over 25 times %s", kinetic,
+                           simulation->problem->exact ? "the exact solution's" : "the energy that there is");
     GX_TRY(take_sample(run, step));
     sample_frequency(run, step);
   }
@@ -351,7 +351,7 @@ static double estimate_stable_dt(const struct gx_case *one)
   struct gx_outcome outcome;
   double dt = NAN;
   bool planned = gx_simulation_plan(&simulation, one, &outcome) == GX_OK;
-  if (planned && simulation.problem->cycles > 0 && is_worth_an_estimate(&simulation)) { /* without period nothing vibrates */
+  if (planned && simulation.problem->material->piola && is_worth_an_estimate(&simulation)) { /* without stress nothing vibrates */
     bool projected = simulation.space_options.each_step && !simulation.clock->tableau;
     if (projected) simulation.space_options.each_step = false;
     if (projected && simulation.clock->splitting && unprojected_drift(simulation.clock->splitting) < 0)

@@ -218,10 +218,12 @@ static bool keep(struct expansion *expansion, const struct gx_value *value)
 /* Resolves and keeps the case that the wheels stand at. */
 static bool take_case(struct expansion *expansion, const struct combination *combination)
 {
-  struct gx_value value[GX_PARAMETERS];
-  memcpy(value, expansion->standard, sizeof value);
+  struct gx_value value[GX_PARAMETERS] = {{.type = GX_NULL}};
   for (int id = 0; id < GX_PARAMETERS; id++)
     if (combination->held[id]) value[id] = item_of(combination, id)->value;
+  gx_parameter_own(value);
+  for (int id = 0; id < GX_PARAMETERS; id++)
+    if (value[id].type == GX_NULL) value[id] = expansion->standard[id];
   gx_parameter_resolve(value);
   for (int id = 0; id < GX_PARAMETERS; id++) {
     if (!combination->held[id]) continue;

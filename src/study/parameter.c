@@ -18,130 +18,7 @@
 #define PHYSICAL        RANGE(1e-100, 1e100) /* its squares in errors and energies neither overflow nor vanish */
 
 const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
-    [GX_PROBLEM_NAME] = {.path = "problem.name",
-                         .type = GX_TEXT,
-                         .unit = "",
-                         .choice = gx_rules_problem_choice,
-                         .help = "what is solved: material, body force, exact solution",
-                         .why = "required: no problem suits every question"},
-    [GX_PROBLEM_DIMENSION] = {.path = "problem.dimension",
-                              .type = GX_INTEGER,
-                              .unit = "",
-                              RANGE(1, 3),
-                              .standard = "1",
-                              .help = "number of space dimensions",
-                              .why = "the cheapest, and the one that most papers print"},
-    [GX_PROBLEM_AMPLITUDE] = {.path = "problem.amplitude",
-                              .type = GX_REAL,
-                              .unit = "m",
-                              RANGE(0, INFINITY),
-                              .standard = "0.05",
-                              .applies = gx_rules_is_continuum,
-                              .help = "amplitude A of the displacement; the domain has length 1",
-                              .why = "large enough that particles cross cells; used throughout the literature"},
-    [GX_PROBLEM_MODULUS] = {.path = "problem.modulus",
-                            .type = GX_REAL,
-                            .unit = "Pa",
-                            PHYSICAL,
-                            .standard = "1e4",
-                            .applies = gx_rules_modulus_applies,
-                            .help = "Young's modulus E",
-                            .why = "with density 1 a wave crosses the domain in 0.01 s"},
-    [GX_PROBLEM_DENSITY] = {.path = "problem.density",
-                            .type = GX_REAL,
-                            .unit = "kg/m^dim",
-                            PHYSICAL,
-                            .standard = "1",
-                            .applies = gx_rules_is_continuum,
-                            .help = "density of the undeformed body",
-                            .why = "it only scales time"},
-    [GX_PROBLEM_POISSON] = {.path = "problem.poisson",
-                            .type = GX_REAL,
-                            .unit = "",
-                            RANGE(-1, 0.5),
-                            .above_least = true,
-                            .below_most = true,
-                            .standard = "0",
-                            .applies = gx_rules_poisson_applies,
-                            .help = "Poisson's ratio; problems whose solution admits one",
-                            .why = "0 decouples the directions"},
-    [GX_PROBLEM_BOUNDARY] = {.path = "problem.boundary",
-                             .type = GX_TEXT,
-                             .unit = "",
-                             .choice = gx_rules_boundary_choice,
-                             .resolve = gx_rules_boundary_default,
-                             .applies = gx_rules_is_continuum,
-                             .help = "ends of the domain: periodic, or fixed at zero displacement",
-                             .why = "by problem: as the paper that poses it"},
-    [GX_PROBLEM_MODE] = {.path = "problem.mode",
-                         .type = GX_INTEGER,
-                         .unit = "",
-                         RANGE(1, 1e6),
-                         .standard = "1",
-                         .applies = gx_rules_mode_applies,
-                         .help = "wavenumber m of sin(2 pi m X); standing-wave problems",
-                         .why = "the longest wave is resolved best"},
-    [GX_PROBLEM_ACTIVE] = {.path = "problem.active",
-                           .type = GX_TEXT,
-                           .unit = "",
-                           .applies = gx_rules_directions_apply,
-                           .resolve = gx_rules_active_default,
-                           .well_formed = gx_rules_active_well_formed,
-                           .help =
-                               "directions that move, in order and within the dimension, such as x or xy; axis-aligned problems",
-                           .why = "all directions of the dimension"},
-    [GX_PROBLEM_PHASES] = {.path = "problem.phases",
-                           .type = GX_TEXT,
-                           .unit = "pi",
-                           .applies = gx_rules_directions_apply,
-                           .resolve = gx_rules_phases_default,
-                           .well_formed = gx_rules_phases_well_formed,
-                           .help = "phase of each direction in multiples of pi, one number a dimension, such as 0 0.5; "
-                                   "axis-aligned problems",
-                           .why = "zeros: all directions move in step"},
-    [GX_PROBLEM_INTERPOLATION_ERROR] = {.path = "problem.interpolation_error",
-                                        .type = GX_REAL,
-                                        .unit = "m/s",
-                                        RANGE(-INFINITY, INFINITY),
-                                        .standard = "0",
-                                        .applies = gx_rules_interpolation_error_applies,
-                                        .help = "error added to the velocity in every drift, never stored; oscillator",
-                                        .why = "0: the clock's own error"},
-    [GX_PROBLEM_KNOT] =
-        {.path = "problem.knot",
-         .type = GX_INTEGER,
-         .unit = "",
-         RANGE(0, 3),
-         .standard = "0",
-         .applies = gx_rules_knot_applies,
-         .help = "start so that the first step meets this knot of the velocity half way, at 1/3, 2/3 or 5/6; 0: start "
-                 "at x = 0; model problems of steffen2010",
-         .why = "0: one run passes all three"},
-    [GX_PROBLEM_JUMP] = {.path = "problem.jump",
-                         .type = GX_REAL,
-                         .unit = "1/s^2",
-                         RANGE(-INFINITY, INFINITY),
-                         .standard = "1",
-                         .applies = gx_rules_jump_applies,
-                         .help = "height J of the steps of g, whose integral is the acceleration; quadrature-model",
-                         .why = "steffen2010 gives none"},
-    [GX_PROBLEM_VARIANT] = {.path = "problem.variant",
-                            .type = GX_TEXT,
-                            .unit = "",
-                            .choice = gx_rules_variant_choice,
-                            .standard = "corrected",
-                            .applies = gx_rules_jump_applies,
-                            .help = "g on [2/3, 5/6]: J as steffen2010 eq. 87 prints it, or J/2; quadrature-model",
-                            .why = "only then does g integrate to 0, as steffen2010 says, and the exact acceleration vanish"},
-    [GX_PROBLEM_PARTICLE_WIDTH] = {.path = "problem.particle_width",
-                                   .type = GX_REAL,
-                                   .unit = "m",
-                                   RANGE(0, 1),
-                                   .above_least = true,
-                                   .standard = "0.25",
-                                   .applies = gx_rules_jump_applies,
-                                   .help = "length that the midpoint rule takes as one particle's; quadrature-model",
-                                   .why = "steffen2010 Fig 9a"},
+#include "parameter_problem.h"
     [GX_MESH_CELLS] = {.path = "mesh.cells",
                        .type = GX_INTEGER,
                        .unit = "",
@@ -303,7 +180,7 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                      RANGE(-INFINITY, INFINITY),
                      .resolve = gx_rules_end_default,
                      .help = "end time, after time.start; excludes time.periods and time.steps",
-                     .why = "none: time.periods sets the end; 0.4 after the start for problems without period, short of x = 1"},
+                     .why = "none: time.periods sets the end; by problem where there is no period"},
     [GX_TIME_PERIODS] = {.path = "time.periods",
                          .type = GX_REAL,
                          .unit = "",
@@ -350,7 +227,7 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
     [GX_OUTPUT_PROBE] = {.path = "output.probe",
                          .type = GX_TEXT,
                          .unit = "m",
-                         .well_formed = gx_rules_probe_well_formed,
+                         .well_formed = gx_rules_place_well_formed,
                          .help = "reference coordinates, one number from 0 to 1 a dimension, such as 0.3 or 0.3 0.7; the nearest "
                                  "particle is followed in histories",
                          .why = "none: norms are over all particles"},
@@ -405,22 +282,39 @@ int gx_parameter_find(const char *path)
   return -1;
 }
 
+static struct gx_value value_from(const struct gx_parameter *parameter, const char *text)
+{
+  struct gx_value value = {.type = parameter->type};
+  if (parameter->type == GX_TEXT)
+    value.text = text;
+  else if (parameter->type == GX_INTEGER)
+    gx_number_integer(text, &value.integer);
+  else
+    gx_number_real(text, &value.real);
+  return value;
+}
+
 struct gx_value gx_parameter_default(enum gx_parameter_id id)
 {
   const struct gx_parameter *parameter = &gx_parameters[id];
-  struct gx_value value = {.type = parameter->type};
-  if (!parameter->standard) return (struct gx_value){.type = GX_NULL};
-  if (parameter->type == GX_TEXT)
-    value.text = parameter->standard;
-  else if (parameter->type == GX_INTEGER)
-    gx_number_integer(parameter->standard, &value.integer);
-  else
-    gx_number_real(parameter->standard, &value.real);
-  return value;
+  return parameter->standard ? value_from(parameter, parameter->standard) : (struct gx_value){.type = GX_NULL};
+}
+
+void gx_parameter_own(struct gx_value *value)
+{
+  const char *const *own = gx_problem_find(value[GX_PROBLEM_NAME].text)->standard;
+  for (; own && *own; own++) {
+    char path[64];
+    size_t length = strcspn(*own, "=");
+    snprintf(path, sizeof path, "%.*s", (int)length, *own);
+    int id = gx_parameter_find(path);
+    if (id >= 0 && value[id].type == GX_NULL) value[id] = value_from(&gx_parameters[id], *own + length + 1);
+  }
 }
 
 void gx_parameter_resolve(struct gx_value *value)
 {
+  gx_parameter_own(value);
   for (int id = 0; id < GX_PARAMETERS; id++)
     if (value[id].type == GX_NULL)
       value[id] = gx_parameters[id].resolve ? gx_parameters[id].resolve(value) : gx_parameter_default(id);
@@ -429,20 +323,46 @@ void gx_parameter_resolve(struct gx_value *value)
     if (gx_parameters[id].applies && !gx_parameters[id].applies(value)) value[id] = (struct gx_value){.type = GX_NULL};
 }
 
+/* "periodic, fixed" */
+static void list_boundaries(const struct gx_problem *problem, char list[64])
+{
+  list[0] = '\0';
+  for (int b = 0; b < GX_BOUNDARIES; b++) {
+    size_t used = strlen(list);
+    if (problem->boundaries >> b & 1) snprintf(list + used, 64 - used, "%s%s", used ? ", " : "", gx_problem_boundary[b]);
+  }
+}
+
+static bool boundary_fits(const struct gx_problem *problem, const char *text, char objection[GX_OBJECTION_LENGTH])
+{
+  char list[64];
+  for (int b = 0; b < GX_BOUNDARIES; b++)
+    if (problem->boundaries >> b & 1 && !strcmp(text, gx_problem_boundary[b])) return true;
+  list_boundaries(problem, list);
+  snprintf(objection, GX_OBJECTION_LENGTH, "%s is not posed with '%s'; choose from %s", problem->name, text, list);
+  return false;
+}
+
+static bool dimension_fits(const struct gx_problem *problem, long dimension, char objection[GX_OBJECTION_LENGTH])
+{
+  bool low = dimension < problem->min_dim;
+  int limit = low ? problem->min_dim : problem->max_dim;
+  if (!low && dimension <= limit) return true;
+  snprintf(objection, GX_OBJECTION_LENGTH, "%s has at %s %d dimension%s, not %ld", problem->name, low ? "least" : "most", limit,
+           limit == 1 ? "" : "s", dimension);
+  return false;
+}
+
 bool gx_parameter_fits(enum gx_parameter_id id, const struct gx_value *value, char objection[GX_OBJECTION_LENGTH])
 {
   const struct gx_parameter *parameter = &gx_parameters[id];
+  const struct gx_problem *problem = gx_problem_find(value[GX_PROBLEM_NAME].text);
   if (id == GX_TIME_END && value[id].type == GX_REAL && !(value[id].real > value[GX_TIME_START].real)) {
     snprintf(objection, GX_OBJECTION_LENGTH, "%.15g is not after time.start, %.15g", value[id].real, value[GX_TIME_START].real);
     return false;
   }
-  if (id == GX_PROBLEM_DIMENSION) {
-    const struct gx_problem *problem = gx_problem_find(value[GX_PROBLEM_NAME].text);
-    if (value[id].integer <= problem->max_dim) return true;
-    snprintf(objection, GX_OBJECTION_LENGTH, "%s has at most %d dimension%s, not %ld", problem->name, problem->max_dim,
-             problem->max_dim == 1 ? "" : "s", value[id].integer);
-    return false;
-  }
+  if (id == GX_PROBLEM_DIMENSION) return dimension_fits(problem, value[id].integer, objection);
+  if (id == GX_PROBLEM_BOUNDARY && value[id].type == GX_TEXT) return boundary_fits(problem, value[id].text, objection);
   if (!parameter->well_formed || value[id].type == GX_NULL || parameter->well_formed(value[id].text, value)) return true;
   snprintf(objection, GX_OBJECTION_LENGTH, "%s does not suit dimension %ld; it gives the %s",
            gx_errors_quote(value[id].text).text, value[GX_PROBLEM_DIMENSION].integer, parameter->help);

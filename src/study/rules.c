@@ -52,7 +52,7 @@ const char *gx_rules_space_choice(int i)
     static const char *const texts[] = {__VA_ARGS__, NULL};                                                                      \
     return texts[i];                                                                                                             \
   }
-CHOICE(gx_rules_boundary_choice, "periodic", "fixed")
+CHOICE(gx_rules_shape_choice, "box", "disk", "ring")
 CHOICE(gx_rules_variant_choice, "printed", "corrected")
 CHOICE(gx_rules_layout_choice, "uniform", "gauss")
 CHOICE(gx_rules_mass_choice, "lumped", "consistent")
@@ -67,6 +67,11 @@ CHOICE(gx_rules_landing_choice, "exact", "past")
 CHOICE(gx_rules_accumulate_choice, "product", "sum", "compensated")
 CHOICE(gx_rules_measures_choice, "final", "max", "all")
 CHOICE(gx_rules_switch_choice, "no", "yes")
+
+const char *gx_rules_boundary_choice(int i)
+{
+  return gx_problem_boundary[i];
+}
 
 /* Where parameters apply */
 
@@ -126,6 +131,46 @@ bool gx_rules_poisson_applies(const struct gx_value *value)
   return problem_of(value)->has_poisson;
 }
 
+bool gx_rules_amplitude_applies(const struct gx_value *value)
+{
+  return problem_of(value)->has_amplitude;
+}
+
+bool gx_rules_flight_applies(const struct gx_value *value)
+{
+  return problem_of(value)->has_flight;
+}
+
+bool gx_rules_spin_applies(const struct gx_value *value)
+{
+  return problem_of(value)->has_flight && value[GX_PROBLEM_DIMENSION].integer > 1;
+}
+
+bool gx_rules_body_applies(const struct gx_value *value)
+{
+  return problem_of(value)->has_body;
+}
+
+static bool has_shape(const struct gx_value *value, const char *shape)
+{
+  return problem_of(value)->has_body && is_text(value[GX_BODY_SHAPE], shape);
+}
+
+bool gx_rules_size_applies(const struct gx_value *value)
+{
+  return has_shape(value, "box");
+}
+
+bool gx_rules_radius_applies(const struct gx_value *value)
+{
+  return has_shape(value, "disk") || has_shape(value, "ring");
+}
+
+bool gx_rules_inner_radius_applies(const struct gx_value *value)
+{
+  return has_shape(value, "ring");
+}
+
 bool gx_rules_mode_applies(const struct gx_value *value)
 {
   return problem_of(value)->has_mode;
@@ -182,7 +227,7 @@ bool gx_rules_landing_applies(const struct gx_value *value)
 
 struct gx_value gx_rules_boundary_default(const struct gx_value *value)
 {
-  return text_value(problem_of(value)->periodic ? "periodic" : "fixed");
+  return text_value(gx_problem_boundary[problem_of(value)->boundary]);
 }
 
 struct gx_value gx_rules_active_default(const struct gx_value *value)
@@ -191,11 +236,17 @@ struct gx_value gx_rules_active_default(const struct gx_value *value)
   return text_value(all[value[GX_PROBLEM_DIMENSION].integer - 1]);
 }
 
-struct gx_value gx_rules_phases_default(const struct gx_value *value)
-{
-  static const char *const zeros[] = {"0", "0 0", "0 0 0"};
-  return text_value(zeros[value[GX_PROBLEM_DIMENSION].integer - 1]);
-}
+/* A text of one number a dimension. */
+#define VECTOR(function, one, two, three)                                                                                        \
+  struct gx_value function(const struct gx_value *value)                                                                         \
+  {                                                                                                                              \
+    static const char *const texts[] = {one, one " " two, one " " two " " three};                                                \
+    return text_value(texts[value[GX_PROBLEM_DIMENSION].integer - 1]);                                                           \
+  }
+VECTOR(gx_rules_phases_default, "0", "0", "0")
+VECTOR(gx_rules_velocity_default, "1", "0.5", "0.25")
+VECTOR(gx_rules_centre_default, "0.5", "0.5", "0.5")
+VECTOR(gx_rules_size_default, "0.5", "0.5", "0.5")
 
 struct gx_value gx_rules_degree_default(const struct gx_value *value)
 {
@@ -216,8 +267,9 @@ struct gx_value gx_rules_dt_default(const struct gx_value *value)
 /* Without a period there is no number of periods. */
 struct gx_value gx_rules_end_default(const struct gx_value *value)
 {
-  if (problem_of(value)->cycles > 0 || value[GX_TIME_STEPS].type != GX_NULL) return (struct gx_value){.type = GX_NULL};
-  return (struct gx_value){.type = GX_REAL, .real = value[GX_TIME_START].real + 0.4};
+  const struct gx_problem *problem = problem_of(value);
+  if (problem->cycles > 0 || value[GX_TIME_STEPS].type != GX_NULL) return (struct gx_value){.type = GX_NULL};
+  return (struct gx_value){.type = GX_REAL, .real = value[GX_TIME_START].real + problem->end};
 }
 
 struct gx_value gx_rules_projection_default(const struct gx_value *value)
@@ -253,12 +305,12 @@ static bool are_numbers(const char *text, const struct gx_value *value, double l
   return numbers == value[GX_PROBLEM_DIMENSION].integer;
 }
 
-bool gx_rules_phases_well_formed(const char *text, const struct gx_value *value)
+bool gx_rules_numbers_well_formed(const char *text, const struct gx_value *value)
 {
   return are_numbers(text, value, -INFINITY, INFINITY);
 }
 
-bool gx_rules_probe_well_formed(const char *text, const struct gx_value *value)
+bool gx_rules_place_well_formed(const char *text, const struct gx_value *value)
 {
   return are_numbers(text, value, 0, 1);
 }

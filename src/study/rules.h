@@ -11,6 +11,7 @@ const char *gx_rules_basis_choice(int i);
 const char *gx_rules_clock_choice(int i);
 const char *gx_rules_space_choice(int i);
 const char *gx_rules_boundary_choice(int i);
+const char *gx_rules_shape_choice(int i);
 const char *gx_rules_variant_choice(int i);
 const char *gx_rules_layout_choice(int i);
 const char *gx_rules_mass_choice(int i);
@@ -37,6 +38,13 @@ bool gx_rules_modulus_applies(const struct gx_value *value);
 bool gx_rules_knot_applies(const struct gx_value *value);
 bool gx_rules_jump_applies(const struct gx_value *value);
 bool gx_rules_poisson_applies(const struct gx_value *value);
+bool gx_rules_amplitude_applies(const struct gx_value *value);
+bool gx_rules_flight_applies(const struct gx_value *value);
+bool gx_rules_spin_applies(const struct gx_value *value);
+bool gx_rules_body_applies(const struct gx_value *value);
+bool gx_rules_size_applies(const struct gx_value *value);
+bool gx_rules_radius_applies(const struct gx_value *value);
+bool gx_rules_inner_radius_applies(const struct gx_value *value);
 bool gx_rules_mode_applies(const struct gx_value *value);
 bool gx_rules_directions_apply(const struct gx_value *value);
 bool gx_rules_degree_applies(const struct gx_value *value);
@@ -51,6 +59,9 @@ bool gx_rules_landing_applies(const struct gx_value *value);
 struct gx_value gx_rules_boundary_default(const struct gx_value *value);
 struct gx_value gx_rules_active_default(const struct gx_value *value);
 struct gx_value gx_rules_phases_default(const struct gx_value *value);
+struct gx_value gx_rules_velocity_default(const struct gx_value *value);
+struct gx_value gx_rules_centre_default(const struct gx_value *value);
+struct gx_value gx_rules_size_default(const struct gx_value *value);
 struct gx_value gx_rules_degree_default(const struct gx_value *value);
 struct gx_value gx_rules_closure_default(const struct gx_value *value);
 struct gx_value gx_rules_dt_default(const struct gx_value *value);
@@ -59,7 +70,7 @@ struct gx_value gx_rules_projection_default(const struct gx_value *value);
 
 /* Whether a free text fits the case. */
 bool gx_rules_active_well_formed(const char *text, const struct gx_value *value);
-bool gx_rules_probe_well_formed(const char *text, const struct gx_value *value);
-bool gx_rules_phases_well_formed(const char *text, const struct gx_value *value);
+bool gx_rules_numbers_well_formed(const char *text, const struct gx_value *value); /* one a dimension */
+bool gx_rules_place_well_formed(const char *text, const struct gx_value *value);   /* the same, from 0 to 1 */
 
 #endif

@@ -23,6 +23,28 @@ static double real(const struct gx_case *one, enum gx_parameter_id id, double ot
   return one->value[id].type == GX_REAL ? one->value[id].real : otherwise;
 }
 
+/* One number a dimension; 0 when the text has ended. */
+static void read_vector(const struct gx_case *one, enum gx_parameter_id id, int dim, double *vector)
+{
+  const char *text = one->value[id].type == GX_TEXT ? one->value[id].text : "";
+  for (int d = 0; d < dim; d++) {
+    char *rest;
+    vector[d] = strtod(text, &rest);
+    text = rest;
+  }
+}
+
+static void read_body(struct gx_body *body, int dim, const struct gx_case *one)
+{
+  static const char *const shapes[] = {[GX_SHAPE_BOX] = "box", [GX_SHAPE_DISK] = "disk", [GX_SHAPE_RING] = "ring"};
+  for (int shape = GX_SHAPE_BOX; shape <= GX_SHAPE_RING; shape++)
+    if (is(one, GX_BODY_SHAPE, shapes[shape])) body->shape = (enum gx_shape)shape;
+  read_vector(one, GX_BODY_CENTRE, dim, body->centre);
+  read_vector(one, GX_BODY_SIZE, dim, body->size);
+  body->radius = real(one, GX_BODY_RADIUS, 0);
+  body->inner_radius = real(one, GX_BODY_INNER_RADIUS, 0);
+}
+
 static void read_problem(struct gx_simulation *simulation, const struct gx_case *one)
 {
   struct gx_problem_options *options = &simulation->problem_options;
@@ -37,14 +59,25 @@ static void read_problem(struct gx_simulation *simulation, const struct gx_case 
   options->jump = real(one, GX_PROBLEM_JUMP, 0);
   options->corrected = is(one, GX_PROBLEM_VARIANT, "corrected");
   options->particle_width = real(one, GX_PROBLEM_PARTICLE_WIDTH, 0);
-  const struct gx_value *active = &one->value[GX_PROBLEM_ACTIVE], *phases = &one->value[GX_PROBLEM_PHASES];
-  const char *phase = phases->type == GX_TEXT ? phases->text : "";
+  read_body(&options->body, options->dim, one);
+  read_vector(one, GX_PROBLEM_VELOCITY, options->dim, options->velocity);
+  options->spin = real(one, GX_PROBLEM_SPIN, 0);
+  const struct gx_value *active = &one->value[GX_PROBLEM_ACTIVE];
+  read_vector(one, GX_PROBLEM_PHASES, options->dim, options->phase);
   for (int d = 0; d < options->dim; d++) {
     options->active[d] = active->type != GX_TEXT || strchr(active->text, "xyz"[d]);
-    char *rest;
-    options->phase[d] = M_PI * fmod(strtod(phase, &rest), 2); /* 0 when the text has ended */
-    phase = rest;
+    options->phase[d] = M_PI * fmod(options->phase[d], 2);
   }
+}
+
+static void read_boundary(struct gx_simulation *simulation, const struct gx_case *one)
+{
+  struct gx_space_options *options = &simulation->space_options;
+  options->periodic = is(one, GX_PROBLEM_BOUNDARY, gx_problem_boundary[GX_BOUNDARY_PERIODIC]);
+  if (is(one, GX_PROBLEM_BOUNDARY, gx_problem_boundary[GX_BOUNDARY_CLAMPED]))
+    options->held[0][0] = (1u << simulation->problem_options.dim) - 1;
+  if (!is(one, GX_PROBLEM_BOUNDARY, gx_problem_boundary[GX_BOUNDARY_FIXED])) return;
+  for (int d = 0; d < GX_MAX_DIM; d++) options->held[d][0] = options->held[d][1] = 1u << d; /* walls: the body slides along */
 }
 
 static void read_method(struct gx_simulation *simulation, const struct gx_case *one)
@@ -57,9 +90,7 @@ static void read_method(struct gx_simulation *simulation, const struct gx_case *
   simulation->jumps = is(one, GX_OUTPUT_JUMPS, "yes");
   simulation->per_cell = (int)integer(one, GX_MESH_PARTICLES_PER_CELL, 1);
   for (int d = 0; d < GX_MAX_DIM; d++) options->cells[d] = (int)integer(one, GX_MESH_CELLS, 1);
-  options->periodic = is(one, GX_PROBLEM_BOUNDARY, "periodic");
-  for (int d = 0; d < GX_MAX_DIM && is(one, GX_PROBLEM_BOUNDARY, "fixed"); d++) /* walls along which the body slides */
-    options->held[d][0] = options->held[d][1] = 1u << d;
+  read_boundary(simulation, one);
   const struct gx_value *basis = &one->value[GX_METHOD_BASIS];
   options->basis = basis->type == GX_TEXT ? gx_basis_find(basis->text) : NULL;
   options->degree = (int)integer(one, GX_METHOD_DEGREE, 1);
@@ -105,17 +136,25 @@ static enum gx_status refuse_jumps(const struct gx_simulation *simulation, struc
   return gx_status_set(outcome, GX_REFUSED, -1, "output.jumps needs a clock that moves particles once a step: %s", clocks);
 }
 
+/* Whether every end is periodic or a wall. */
+static bool ends_are_waves(const struct gx_space_options *options)
+{
+  return options->periodic || (options->held[0][0] & options->held[0][1] & 1);
+}
+
 static enum gx_status refuse(const struct gx_simulation *simulation, struct gx_outcome *outcome)
 {
-  const struct gx_problem_options *problem = &simulation->problem_options;
+  const struct gx_problem *problem = simulation->problem;
   const struct gx_space_options *options = &simulation->space_options;
-  double slope = 2 * M_PI * problem->mode * fabs(problem->amplitude);
   if (simulation->jumps) GX_TRY(refuse_jumps(simulation, outcome));
-  if (simulation->problem->space) return GX_OK;
-  if (slope >= 1)
+  if (problem->space) return GX_OK;
+  if (problem->check) GX_TRY(problem->check(&simulation->problem_options, outcome));
+  if (problem->meets && !simulation->kind->fixed_grid)
+    return gx_status_set(outcome, GX_REFUSED, -1, "%s: %s; use space standard", simulation->kind->name, problem->meets);
+  if (simulation->kind->collocation && (problem->inside || !ends_are_waves(options)))
     return gx_status_set(outcome, GX_REFUSED, -1,
-                         "the exact solution itself tangles: its least F is %.4g; amplitude must stay below %.6g", 1 - slope,
-                         1 / (2 * M_PI * problem->mode));
+                         "%s is for bodies from end to end of a domain that is periodic or fixed: use standard or moving-mesh",
+                         simulation->kind->name);
   if (options->basis && options->basis->deforms && !simulation->kind->fixed_grid)
     return gx_status_set(outcome, GX_REFUSED, -1,
                          "%s has no meaning in the reference configuration, where domains keep their width: use ugimp",
@@ -160,6 +199,19 @@ static enum gx_status settle_steps(struct gx_simulation *simulation, const struc
 static enum gx_status refuse_outputs(const struct gx_simulation *simulation, const struct gx_case *one,
                                      struct gx_outcome *outcome)
 {
+  const struct gx_problem *problem = simulation->problem;
+  bool spectra = integer(one, GX_OUTPUT_SPECTRA, 0), budget = integer(one, GX_OUTPUT_BUDGET, 0);
+  const char *of_errors = spectra ? "output.spectra" : budget ? "output.budget" : NULL;
+  if (of_errors && (!problem->exact || problem->inside))
+    return gx_status_set(outcome, GX_REFUSED, -1, "%s is of errors over the whole domain, and %s %s: leave it out", of_errors,
+                         problem->name, problem->exact ? "does not fill it" : "has no exact solution");
+  if (integer(one, GX_OUTPUT_FREQUENCY, 0) && !problem->waves)
+    return gx_status_set(outcome, GX_REFUSED, -1, "output.frequency is of a standing wave, and %s is none: leave it out",
+                         problem->name);
+  if (!problem->exact && simulation->start != 0)
+    return gx_status_set(outcome, GX_REFUSED, -1,
+                         "%s has no exact solution to start from at time.start, %g s: its initial state is that of time 0",
+                         problem->name, simulation->start);
   double sampled = (double)integer(one, GX_OUTPUT_FREQUENCY, 0) * simulation->dt * simulation->frequency;
   if (sampled > 0.25)
     return gx_status_set(outcome, GX_REFUSED, -1,
@@ -180,20 +232,50 @@ enum gx_status gx_simulation_plan(struct gx_simulation *simulation, const struct
   return refuse(simulation, outcome);
 }
 
-enum gx_status gx_simulation_build(struct gx_simulation *simulation, struct gx_outcome *outcome)
+static bool is_inside(const void *simulation, const double *X)
+{
+  const struct gx_simulation *of = simulation;
+  return of->problem->inside(&of->problem_options, X);
+}
+
+enum gx_status gx_simulation_lay_out(struct gx_simulation *simulation, struct gx_outcome *outcome)
 {
   const struct gx_problem_options *options = &simulation->problem_options;
-  struct gx_particles *particles = gx_particles_create(options->dim, simulation->space_options.cells, simulation->per_cell,
-                                                       simulation->layout, options->moduli.density);
-  simulation->particles = particles;
-  if (!particles) return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the particles");
-  simulation->posed = gx_problem_pose(simulation->problem, options, particles->n, particles->X);
+  const int *cells = simulation->space_options.cells;
+  simulation->particles = gx_particles_fill(options->dim, cells, simulation->per_cell, simulation->layout,
+                                            options->moduli.density, simulation->problem->inside ? is_inside : NULL, simulation);
+  if (!simulation->particles) return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the particles");
+  if (simulation->particles->n) return GX_OK;
+  return gx_status_set(outcome, GX_REFUSED, -1,
+                       "no particle is inside the body: use more than %d cells, more than %d particles a cell, or a larger body",
+                       cells[0], simulation->per_cell);
+}
+
+enum gx_status gx_simulation_pose(struct gx_simulation *simulation, struct gx_outcome *outcome)
+{
+  const struct gx_particles *particles = simulation->particles;
+  simulation->posed = gx_problem_pose(simulation->problem, &simulation->problem_options, particles->n, particles->X);
   if (!simulation->posed) return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the problem");
-  double start = simulation->start, behind = simulation->clock->staggered ? 0.5 * simulation->dt : 0;
-  simulation->problem->exact(simulation->posed, start, particles->u, NULL, particles->F, NULL);
-  simulation->problem->exact(simulation->posed, start - behind, NULL, particles->v, NULL, NULL);
-  return simulation->kind->create(simulation->kind, &simulation->space, &simulation->space_options, particles, simulation->posed,
-                                  outcome);
+  double behind = simulation->clock->staggered ? 0.5 * simulation->dt : 0;
+  gx_problem_begin(simulation->posed, simulation->start, simulation->start - behind, particles->u, particles->v, particles->F);
+  return GX_OK;
+}
+
+enum gx_status gx_simulation_open(struct gx_simulation *simulation, struct gx_outcome *outcome)
+{
+  const struct gx_space_kind *kind = simulation->kind;
+  GX_TRY(kind->create(kind, &simulation->space, &simulation->space_options, simulation->particles, simulation->posed, outcome));
+  if (simulation->problem->exact || !simulation->clock->staggered) return GX_OK;
+  GX_TRY(kind->accelerate(simulation->space, 0));
+  kind->advance(simulation->space, -0.5 * simulation->dt, 0, 0);
+  return GX_OK;
+}
+
+enum gx_status gx_simulation_build(struct gx_simulation *simulation, struct gx_outcome *outcome)
+{
+  GX_TRY(gx_simulation_lay_out(simulation, outcome));
+  GX_TRY(gx_simulation_pose(simulation, outcome));
+  return gx_simulation_open(simulation, outcome);
 }
 
 void gx_simulation_free(struct gx_simulation *simulation)
@@ -212,27 +294,68 @@ void gx_simulation_conserves(const struct gx_simulation *simulation, bool *linea
   *angular = *linear && simulation->problem_options.dim > 1 && !options->periodic;
 }
 
-double gx_simulation_kinetic_bound(const struct gx_simulation *simulation)
+enum { SAMPLES = 8 }; /* a standing wave peaks at quarters of its period, what has no period at the end */
+
+static double kinetic_of(const struct gx_particles *particles, double *const *v)
 {
-  enum { SAMPLES = 8 }; /* a standing wave peaks at quarters of its period, what has no period at the end */
-  const struct gx_particles *particles = simulation->particles;
-  double cycles = simulation->problem->cycles, first = 0;
-  double span = 1 / simulation->frequency;
+  double kinetic = 0;
+  for (int d = 0; d < particles->dim; d++)
+    for (size_t p = 0; p < particles->n; p++) kinetic += 0.5 * particles->m[p] * v[d][p] * v[d][p];
+  return kinetic;
+}
+
+static double exact_bound(const struct gx_simulation *simulation, double *const *v)
+{
+  double cycles = simulation->problem->cycles, first = 0, span = 1 / simulation->frequency, largest = 0;
   if (cycles == 0) {
     first = simulation->start;
     span = simulation->end - first;
   }
-  double *v[GX_MAX_DIM], largest = 0;
+  for (int i = 0; i <= SAMPLES; i++) {
+    simulation->problem->exact(simulation->posed, first + span * i / SAMPLES, NULL, v, NULL, NULL);
+    largest = fmax(largest, kinetic_of(simulation->particles, v));
+  }
+  return largest;
+}
+
+/* What the body force can add; b: scratch. */
+static double loaded_bound(const struct gx_simulation *simulation, double *const *b)
+{
+  const struct gx_particles *particles = simulation->particles;
+  double span = simulation->end - simulation->start, largest = 0;
+  for (int i = 0; i <= SAMPLES && simulation->problem->body; i++) {
+    double energy = 0;
+    simulation->problem->body(simulation->posed, simulation->start + span * i / SAMPLES, b);
+    for (int d = 0; d < particles->dim; d++)
+      for (size_t p = 0; p < particles->n; p++) {
+        double speed = b[d][p] * span;
+        energy += particles->m[p] * (simulation->space_options.periodic ? 0.5 * speed * speed : fabs(b[d][p]));
+      }
+    largest = fmax(largest, energy);
+  }
+  return largest;
+}
+
+static double elastic_of(const struct gx_simulation *simulation, double *W)
+{
+  const struct gx_particles *particles = simulation->particles;
+  double sum = 0;
+  if (!simulation->problem->material->energy) return 0;
+  simulation->problem->material->energy(&simulation->problem_options.moduli, particles->dim, particles->n, particles->F, W);
+  for (size_t p = 0; p < particles->n; p++) sum += particles->V0[p] * W[p];
+  return sum;
+}
+
+double gx_simulation_kinetic_bound(const struct gx_simulation *simulation)
+{
+  const struct gx_particles *particles = simulation->particles;
+  double *scratch[GX_MAX_DIM] = {NULL};
   double *block = malloc(particles->n * (size_t)particles->dim * sizeof(double));
   if (!block) return INFINITY;
-  for (int d = 0; d < particles->dim; d++) v[d] = block + (size_t)d * particles->n;
-  for (int i = 0; i <= SAMPLES; i++) {
-    double kinetic = 0;
-    simulation->problem->exact(simulation->posed, first + span * i / SAMPLES, NULL, v, NULL, NULL);
-    for (int d = 0; d < particles->dim; d++)
-      for (size_t p = 0; p < particles->n; p++) kinetic += 0.5 * particles->m[p] * v[d][p] * v[d][p];
-    largest = fmax(largest, kinetic);
-  }
+  for (int d = 0; d < particles->dim; d++) scratch[d] = block + (size_t)d * particles->n;
+  double bound = simulation->problem->exact
+                     ? exact_bound(simulation, scratch)
+                     : kinetic_of(particles, particles->v) + elastic_of(simulation, block) + loaded_bound(simulation, scratch);
   free(block);
-  return largest;
+  return bound;
 }

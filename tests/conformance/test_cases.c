@@ -25,7 +25,7 @@ static void every_method_ends_well(void **state)
       for (int b = 0; gx_basis_family[b]; b++)
         for (int consistent = 0; consistent < 2; consistent++)
           for (int p = 0; gx_problem_family[p]; p++) {
-            if (gx_space_family[s]->of_problem || gx_problem_family[p]->space) continue;
+            if (gx_space_family[s]->of_problem || !gx_problem_family[p]->waves) continue;
             bool collocation = gx_space_family[s]->collocation;
             if (collocation ? b || consistent || gx_problem_family[p]->max_dim > 1
                             : gx_basis_family[b]->deforms && !gx_space_family[s]->fixed_grid)
