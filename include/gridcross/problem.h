@@ -91,5 +91,7 @@ struct gx_posed *gx_problem_pose(const struct gx_problem *problem, const struct 
 void gx_problem_begin(const struct gx_posed *posed, double t, double t_velocity, double *const *u, double *const *v,
                       double *const *F);
 void gx_problem_free(struct gx_posed *posed);
+/* n of the points, from the one given: as posed, whose tables it borrows. */
+struct gx_posed gx_problem_part(const struct gx_posed *posed, size_t from, size_t n);
 
 #endif

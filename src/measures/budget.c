@@ -169,11 +169,11 @@ static void add_exact(struct gx_budget *budget, enum gx_budget_entry term, doubl
 }
 
 /* The term that lies between the level before and this one: term += span (S field - before). */
-static void add_level(struct gx_budget *budget, const struct gx_mesh *mesh, enum gx_budget_entry term, double span,
+static void add_level(struct gx_budget *budget, struct gx_mesh *mesh, enum gx_budget_entry term, double span,
                       double *const *field)
 {
   double **out = budget->term[term].component, **seen = budget->seen.component, **before = budget->before.component;
-  gx_transfer_gather(&mesh->weights, field, seen);
+  gx_mesh_gather(mesh, field, seen);
   for (int d = 0; d < budget->particles->dim; d++)
     for (size_t p = 0; p < budget->particles->n; p++) out[d][p] += span * (seen[d][p] - before[d][p]);
   struct vector_field swap = budget->seen;
@@ -201,13 +201,8 @@ static void add_projections(struct gx_budget *budget, struct gx_space *space, en
 /* Forces with the exact stress, which the particles have after build(). */
 static enum gx_status force(const struct gx_budget *budget, struct gx_space *space, double t)
 {
-  struct gx_mesh *mesh = (struct gx_mesh *)space;
-  const struct gx_particles *particles = budget->particles;
-  if (budget->kind->fixed_grid) return budget->kind->accelerate(space, t);
-  for (int k = 0; k < particles->dim * particles->dim; k++)
-    for (size_t p = 0; p < particles->n; p++) mesh->T[k][p] = -particles->V0[p] * particles->P[k][p];
-  gx_mesh_accelerate(mesh, t);
-  return GX_OK;
+  return budget->kind->fixed_grid ? budget->kind->accelerate(space, t)
+                                  : gx_mesh_accelerate((struct gx_mesh *)space, t, gx_mesh_load_nominal);
 }
 
 /* Every acceleration between the exact one and the method's, from the exact state at t. first: t is the start of the step. */
@@ -280,20 +275,19 @@ static void exact_gradient(struct gx_budget *budget, double t)
 }
 
 /* berzins2022 eqs 63, 64 with the best nodal velocities; the points are at time t. */
-static void take_velocity(struct gx_budget *budget, const struct gx_space *space, double t, double *value)
+static void take_velocity(struct gx_budget *budget, struct gx_space *space, double t, double *value)
 {
-  const struct gx_mesh *mesh = (const struct gx_mesh *)space;
-  struct gx_mesh *ideal = budget->integral->mesh;
+  struct gx_mesh *mesh = (struct gx_mesh *)space, *ideal = budget->integral->mesh;
   const struct gx_problem *problem = budget->posed->problem;
   int dim = budget->particles->dim;
   size_t n = budget->particles->n;
   problem->exact(budget->integral->posed, t, NULL, budget->point, NULL, NULL);
   gx_integral_project(budget->integral, false, budget->point, ideal->v);
   problem->exact(budget->posed, t, NULL, budget->exact.component, NULL, NULL);
-  gx_transfer_gather(&mesh->weights, ideal->v, budget->seen.component);
+  gx_mesh_gather(mesh, ideal->v, budget->seen.component);
   value[GX_BUDGET_INF_VELOCITY] = largest(dim, n, budget->exact.component, budget->seen.component);
   exact_gradient(budget, t);
-  gx_transfer_gather_gradient(&mesh->weights, ideal->v, budget->F);
+  gx_mesh_gather_gradient(mesh, ideal->v, budget->F);
   value[GX_BUDGET_INF_GRADIENT] = largest(dim * dim, n, budget->gradient, budget->F);
 }
 

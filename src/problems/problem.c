@@ -70,3 +70,15 @@ void gx_problem_free(struct gx_posed *posed)
   }
   free(posed);
 }
+
+struct gx_posed gx_problem_part(const struct gx_posed *posed, size_t from, size_t n)
+{
+  struct gx_posed part = *posed;
+  part.n = n;
+  for (int d = 0; d < posed->options.dim; d++) {
+    part.X[d] += from;
+    if (part.sine[d]) part.sine[d] += from;
+    if (part.cosine[d]) part.cosine[d] += from;
+  }
+  return part;
+}

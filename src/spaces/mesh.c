@@ -2,9 +2,10 @@
 /* Set-up, weights, projection and acceleration that standard and moving-mesh MPM share. */
 #include "mesh.h"
 
+#include <limits.h>
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "../core/aligned.h"
 #include "../core/kernel.h"
@@ -42,25 +43,16 @@ static size_t hand_out(double **array, int count, size_t length, double *at)
 /* Sets every array of the mesh; returns the number of doubles they take. */
 static size_t place_arrays(struct gx_mesh *mesh, double *block)
 {
-  int dim = mesh->grid.dim, support = mesh->grid.axis[0].support;
+  const int dim = mesh->grid.dim;
   size_t nodes = mesh->grid.stored, n = mesh->space.particles->n, used = 0;
 #define PLACE(array, count, length) used += hand_out(array, count, length, block ? block + used : NULL)
   PLACE(&mesh->mass, 1, nodes);
   PLACE(mesh->v, dim, nodes);
   PLACE(mesh->a, dim, nodes);
   PLACE(mesh->u, dim, nodes);
-  PLACE(mesh->x, dim, n);
   PLACE(mesh->half, dim, n);
-  PLACE(mesh->T, dim * dim, n);
-  PLACE(mesh->body, dim, n);
   PLACE(mesh->opened, dim, n);
   PLACE(mesh->opened_nodes, dim, nodes);
-  PLACE(mesh->gathered_a, dim, n);
-  PLACE(mesh->gathered_v, dim, n);
-  PLACE(mesh->gradient, dim * dim, n);
-  PLACE(mesh->rate_P, dim * dim, n);
-  PLACE(mesh->weights.S, dim, n * (size_t)support);
-  PLACE(mesh->weights.D, dim, n * (size_t)support);
 #undef PLACE
   return used;
 }
@@ -82,23 +74,15 @@ enum gx_status gx_mesh_create(struct gx_mesh **out, size_t size, const struct gx
     free(mesh);
     return GX_REFUSED;
   }
-  int dim = mesh->grid.dim;
-  size_t bytes = place_arrays(mesh, NULL) * sizeof(double);
-  double *arrays = gx_aligned_zeros(bytes, &mesh->block);
-  mesh->first_block = calloc(particles->n * (size_t)dim + 1, sizeof(int));
+  double *arrays = gx_aligned_zeros(place_arrays(mesh, NULL) * sizeof(double), &mesh->block);
   if (options->consistent) mesh->consistent = gx_mass_create(&mesh->grid);
-  if (!mesh->block || !mesh->first_block || (options->consistent && !mesh->consistent)) {
+  if (gx_blocks_init(&mesh->blocks, &mesh->grid, options->basis, particles->n, particles->X, options->consistent,
+                     options->team) ||
+      gx_exchange_init(&mesh->exchange, &mesh->grid, options->team) || !arrays || (options->consistent && !mesh->consistent)) {
     gx_mesh_free(&mesh->space);
     return gx_status_set(outcome, GX_FAILED, -1, "out of memory");
   }
   place_arrays(mesh, arrays);
-  mesh->weights.dim = dim;
-  mesh->weights.support = mesh->grid.axis[0].support;
-  mesh->weights.n = particles->n;
-  for (int d = 0; d < dim; d++) {
-    mesh->weights.stride[d] = mesh->grid.stride[d];
-    mesh->weights.first[d] = mesh->first_block + (size_t)d * particles->n;
-  }
   *out = mesh;
   return GX_OK;
 }
@@ -108,35 +92,27 @@ void gx_mesh_free(struct gx_space *space)
   struct gx_mesh *mesh = (struct gx_mesh *)space;
   if (!mesh) return;
   gx_mass_free(mesh->consistent);
+  gx_blocks_free(&mesh->blocks);
+  gx_exchange_free(&mesh->exchange);
   free(mesh->block);
-  free(mesh->first_block);
   free(mesh);
-}
-
-/* x = X + u; returns whether every x lies within [low, high]. */
-GX_CLONES static bool move(size_t n, const double *restrict X, const double *restrict u, double low, double high,
-                           double *restrict x)
-{
-  int outside = 0;
-  for (size_t p = 0; p < n; p++) {
-    double at = X[p] + u[p];
-    x[p] = at;
-    outside |= !(at >= low && at <= high);
-  }
-  return !outside;
 }
 
 /* Farther than this, positions on a periodic grid mean nothing; past a fixed end, more than this is not round-off. */
 static const double far = 1e6, edge = 1e-12;
 
-static enum gx_status report_outside(struct gx_mesh *mesh, int d)
+static enum gx_status report_stray(struct gx_mesh *mesh, const struct gx_blocks_stray *stray)
 {
-  const double *x = mesh->x[d];
-  size_t p = 0;
-  while (mesh->grid.axis[d].periodic ? fabs(x[p]) <= far : x[p] >= -edge && x[p] <= 1 + edge) p++;
-  if (mesh->grid.axis[d].periodic || !isfinite(x[p]))
-    return gx_status_set(mesh->space.outcome, GX_UNSTABLE, (long)p, "the position of a particle is %g", x[p]);
-  return gx_status_set(mesh->space.outcome, GX_LEFT_DOMAIN, (long)p, "a particle is at %.6g, outside the domain [0, 1]", x[p]);
+  const int d = stray->d;
+  const size_t p = stray->particle;
+  const double x = mesh->blocks.x[d][p];
+  struct gx_outcome *outcome = mesh->space.outcome;
+  if (stray->wide)
+    return gx_status_set(outcome, GX_TANGLED, (long)p, "the domain of a particle is %.4g cells wide; %s needs 0 to 1",
+                         2 * mesh->blocks.half[d][p] * mesh->grid.axis[d].cells, mesh->options.basis->name);
+  if (mesh->grid.axis[d].periodic || !isfinite(x))
+    return gx_status_set(outcome, GX_UNSTABLE, (long)p, "the position of a particle is %g", x);
+  return gx_status_set(outcome, GX_LEFT_DOMAIN, (long)p, "a particle is at %.6g, outside the domain [0, 1]", x);
 }
 
 /* Half lengths of particle domains along d for a basis that needs them: stretched by F, as they were, or at reference. */
@@ -151,23 +127,15 @@ static const double *domains(struct gx_mesh *mesh, int d, double *const *F, bool
 
 static enum gx_status weigh(struct gx_mesh *mesh, double *const *u, double *const *F, bool frozen)
 {
-  const struct gx_particles *particles = mesh->space.particles;
-  const struct gx_basis *basis = mesh->options.basis;
-  size_t n = particles->n;
+  double low[GX_MAX_DIM], high[GX_MAX_DIM];
   for (int d = 0; d < mesh->grid.dim; d++) {
-    const struct gx_axis *axis = &mesh->grid.axis[d];
-    const double *x = particles->X[d], *half = domains(mesh, d, F, frozen);
-    if (u) {
-      if (!move(n, x, u[d], axis->periodic ? -far : -edge, axis->periodic ? far : 1 + edge, mesh->x[d]))
-        return report_outside(mesh, d);
-      x = mesh->x[d];
-    }
-    long wide = basis->evaluate(axis, n, x, half, mesh->weights.first[d], mesh->weights.S[d], mesh->weights.D[d]);
-    if (wide >= 0)
-      return gx_status_set(mesh->space.outcome, GX_TANGLED, wide, "the domain of a particle is %.4g cells wide; %s needs 0 to 1",
-                           2 * half[wide] * axis->cells, basis->name);
+    const bool periodic = mesh->grid.axis[d].periodic;
+    low[d] = periodic ? -far : -edge;
+    high[d] = periodic ? far : 1 + edge;
+    mesh->blocks.half[d] = domains(mesh, d, F, frozen);
   }
-  return GX_OK;
+  struct gx_blocks_stray stray = gx_blocks_place(&mesh->blocks, u, low, high);
+  return stray.d < 0 ? GX_OK : report_stray(mesh, &stray);
 }
 
 enum gx_status gx_mesh_weigh(struct gx_mesh *mesh, double *const *u, double *const *F)
@@ -178,11 +146,6 @@ enum gx_status gx_mesh_weigh(struct gx_mesh *mesh, double *const *u, double *con
 enum gx_status gx_mesh_weigh_frozen(struct gx_mesh *mesh, double *const *u)
 {
   return weigh(mesh, u, NULL, true);
-}
-
-static void zero(const struct gx_mesh *mesh, double *field)
-{
-  memset(field, 0, mesh->grid.stored * sizeof *field);
 }
 
 GX_CLONES static void divide_by_mass(size_t nodes, const double *restrict mass, double *restrict field)
@@ -205,68 +168,142 @@ static void solve_mass(struct gx_mesh *mesh, double *const *field)
   }
 }
 
-enum gx_status gx_mesh_assemble(struct gx_mesh *mesh, double *const *value, double *const *field)
-{
-  const double *m = mesh->space.particles->m;
-  zero(mesh, mesh->mass);
-  for (int d = 0; value && d < mesh->grid.dim; d++) zero(mesh, field[d]);
-  gx_transfer_scatter(&mesh->weights, m, value, mesh->mass, field);
-  gx_grid_fold(&mesh->grid, mesh->mass);
-  if (mesh->consistent && gx_mass_factor(mesh->consistent, &mesh->weights, m))
-    return gx_status_set(mesh->space.outcome, GX_SINGULAR, -1,
-                         "the consistent mass matrix is not positive definite: too few particles under a basis function");
-  if (value) solve_mass(mesh, field);
-  return GX_OK;
-}
-
-void gx_mesh_project(struct gx_mesh *mesh, double *const *value, double *const *field)
-{
-  for (int d = 0; d < mesh->grid.dim; d++) zero(mesh, field[d]);
-  gx_transfer_scatter(&mesh->weights, mesh->space.particles->m, value, NULL, field);
-  solve_mass(mesh, field);
-}
-
-enum gx_status gx_mesh_stress(struct gx_mesh *mesh)
-{
-  struct gx_particles *particles = mesh->space.particles;
-  const struct gx_posed *posed = mesh->space.posed;
-  /* stress by rate: only to see whether F still is a deformation */
-  double *const *P = mesh->options.stress_rate ? mesh->rate_P : particles->P;
-  long tangled = posed->problem->material->piola(&posed->options.moduli, particles->dim, particles->n, particles->F, P);
-  if (tangled < 0) return GX_OK;
-  return gx_status_set(mesh->space.outcome, GX_TANGLED, tangled, "det F of a particle is %g",
-                       gx_particles_jacobian(particles, (size_t)tangled));
-}
-
-void gx_mesh_kick_particles(struct gx_mesh *mesh, double kick)
-{
-  struct gx_particles *particles = mesh->space.particles;
-  double flip = mesh->options.pic ? 0 : mesh->options.flip;
-  for (int d = 0; d < particles->dim; d++) {
-    double *v = particles->v[d];
-    gx_vector_add(particles->n, kick, mesh->gathered_a[d], v);
-    if (flip < 1)
-      for (size_t p = 0; p < particles->n; p++) v[p] = flip * v[p] + (1 - flip) * mesh->gathered_v[d][p];
-  }
-}
+/* A pass that scatters what the particles carry: value, and with `load` forces. */
+struct scattering {
+  struct gx_mesh *mesh;
+  double *const *value; /* [dim][n], NULL: mass alone */
+  double t;
+  long (*load)(struct gx_mesh *mesh, struct gx_block *block);
+  atomic_long tangled; /* first particle; LONG_MAX: none */
+};
 
 GX_CLONES static void multiply(size_t n, const double *restrict a, const double *restrict b, double *restrict product)
 {
   for (size_t p = 0; p < n; p++) product[p] = a[p] * b[p];
 }
 
-void gx_mesh_accelerate(struct gx_mesh *mesh, double t)
+static void load_block(struct scattering *scattering, struct gx_block *block, double *const *b)
+{
+  struct gx_mesh *mesh = scattering->mesh;
+  const struct gx_posed *posed = mesh->space.posed;
+  long bad = scattering->load(mesh, block), first = atomic_load(&scattering->tangled);
+  if (bad >= 0) bad += (long)block->from;
+  while (bad >= 0 && bad < first && !atomic_compare_exchange_weak(&scattering->tangled, &first, bad)) continue;
+  if (!posed->problem->body) return;
+  if (block->n < posed->n) {
+    const struct gx_posed part = gx_problem_part(posed, block->from, block->n);
+    posed->problem->body(&part, scattering->t, b);
+  } else {
+    posed->problem->body(posed, scattering->t, b);
+  }
+  for (int d = 0; d < mesh->grid.dim; d++) multiply(block->n, mesh->space.particles->m + block->from, b[d], block->body[d]);
+}
+
+static void scatter_block(void *context, struct gx_block *block)
+{
+  struct scattering *scattering = context;
+  struct gx_mesh *mesh = scattering->mesh;
+  const struct gx_particles *particles = mesh->space.particles;
+  const int dim = mesh->grid.dim;
+  double *value[GX_MAX_DIM], *b[GX_MAX_DIM];
+  if (scattering->value) gx_block_part(block, dim, scattering->value, value);
+  gx_block_part(block, dim, particles->b, b);
+  if (scattering->load) load_block(scattering, block, b);
+  gx_exchange_scatter(&mesh->exchange, block, particles->m + block->from, scattering->value ? value : NULL, block->T,
+                      mesh->space.posed->problem->body ? block->body : NULL);
+}
+
+enum gx_status gx_mesh_assemble(struct gx_mesh *mesh, double *const *value, double *const *field)
+{
+  struct scattering scattering = {.mesh = mesh, .value = value};
+  mesh->unprojected = false;
+  gx_exchange_collect(&mesh->exchange, mesh->mass, value ? field : NULL, NULL);
+  gx_blocks_each_apart(&mesh->blocks, scatter_block, &scattering);
+  gx_exchange_deliver(&mesh->exchange);
+  gx_grid_fold(&mesh->grid, mesh->mass);
+  if (mesh->consistent && gx_mass_factor(mesh->consistent, &mesh->blocks.whole, mesh->space.particles->m))
+    return gx_status_set(mesh->space.outcome, GX_SINGULAR, -1,
+                         "the consistent mass matrix is not positive definite: too few particles under a basis function");
+  if (value) solve_mass(mesh, field);
+  return GX_OK;
+}
+
+enum gx_status gx_mesh_postpone(struct gx_mesh *mesh)
+{
+  mesh->unprojected = true;
+  if (mesh->consistent) return gx_mesh_assemble(mesh, mesh->options.each_step ? mesh->space.particles->v : NULL, mesh->v);
+  return GX_OK;
+}
+
+void gx_mesh_catch_up(struct gx_mesh *mesh)
+{
+  if (mesh->unprojected) gx_mesh_assemble(mesh, mesh->options.each_step ? mesh->space.particles->v : NULL, mesh->v);
+}
+
+void gx_mesh_project(struct gx_mesh *mesh, double *const *value, double *const *field)
+{
+  struct scattering scattering = {.mesh = mesh, .value = value};
+  gx_mesh_catch_up(mesh);
+  gx_exchange_collect(&mesh->exchange, NULL, field, NULL);
+  gx_blocks_each_apart(&mesh->blocks, scatter_block, &scattering);
+  gx_exchange_deliver(&mesh->exchange);
+  solve_mass(mesh, field);
+}
+
+long gx_mesh_stress(struct gx_mesh *mesh, struct gx_block *block)
 {
   struct gx_particles *particles = mesh->space.particles;
   const struct gx_posed *posed = mesh->space.posed;
-  bool loaded = posed->problem->body;
-  if (loaded) posed->problem->body(posed, t, particles->b);
-  for (int d = 0; d < mesh->grid.dim; d++) {
-    zero(mesh, mesh->a[d]);
-    if (loaded) multiply(particles->n, particles->m, particles->b[d], mesh->body[d]);
+  const int dim = particles->dim;
+  double *F[GX_MAX_TENSOR], *P[GX_MAX_TENSOR];
+  gx_block_part(block, dim * dim, particles->F, F);
+  gx_block_part(block, dim * dim, particles->P, P);
+  /* stress by rate: only to see whether F still is a deformation */
+  return posed->problem->material->piola(&posed->options.moduli, dim, block->n, F, mesh->options.stress_rate ? block->rate_P : P);
+}
+
+GX_CLONES static void nominal(size_t n, const double *restrict V0, const double *restrict P, double *restrict T)
+{
+  for (size_t p = 0; p < n; p++) T[p] = -V0[p] * P[p];
+}
+
+long gx_mesh_load_nominal(struct gx_mesh *mesh, struct gx_block *block)
+{
+  const struct gx_particles *particles = mesh->space.particles;
+  for (int k = 0; k < particles->dim * particles->dim; k++)
+    nominal(block->n, particles->V0 + block->from, particles->P[k] + block->from, block->T[k]);
+  return -1;
+}
+
+void gx_mesh_kick_block(const struct gx_mesh *mesh, const struct gx_block *block, double kick)
+{
+  struct gx_particles *particles = mesh->space.particles;
+  double flip = mesh->options.pic ? 0 : mesh->options.flip;
+  for (int d = 0; d < particles->dim; d++) {
+    double *v = particles->v[d] + block->from;
+    gx_vector_add(block->n, kick, block->a[d], v);
+    if (flip < 1)
+      for (size_t p = 0; p < block->n; p++) v[p] = flip * v[p] + (1 - flip) * block->v[d][p];
   }
-  gx_transfer_scatter_force(&mesh->weights, mesh->T, loaded ? mesh->body : NULL, mesh->a);
+}
+
+enum gx_status gx_mesh_accelerate(struct gx_mesh *mesh, double t, long (*load)(struct gx_mesh *mesh, struct gx_block *block))
+{
+  struct gx_particles *particles = mesh->space.particles;
+  const bool assemble = mesh->unprojected, project = assemble && mesh->options.each_step;
+  struct scattering scattering = {
+      .mesh = mesh, .value = project ? particles->v : NULL, .t = t, .load = load, .tangled = LONG_MAX};
+  mesh->unprojected = false;
+  gx_exchange_collect(&mesh->exchange, assemble ? mesh->mass : NULL, project ? mesh->v : NULL, mesh->a);
+  gx_blocks_each_apart(&mesh->blocks, scatter_block, &scattering);
+  if (scattering.tangled < LONG_MAX)
+    return gx_status_set(mesh->space.outcome, GX_TANGLED, scattering.tangled, "det F of a particle is %g",
+                         gx_particles_jacobian(particles, (size_t)scattering.tangled));
+  gx_exchange_deliver(&mesh->exchange);
+  if (assemble) gx_grid_fold(&mesh->grid, mesh->mass); /* lumped */
+  if (project) solve_mass(mesh, mesh->v);
   solve_mass(mesh, mesh->a);
+  return GX_OK;
 }
 
 double gx_mesh_kinetic(const struct gx_space *space)
@@ -277,10 +314,40 @@ double gx_mesh_kinetic(const struct gx_space *space)
   return 0.5 * twice;
 }
 
+struct gathering {
+  struct gx_mesh *mesh;
+  double *const *value, *const *gradient; /* NULL: not this one */
+};
+
+static void gather_block(void *context, struct gx_block *block)
+{
+  const struct gathering *gathering = context;
+  const int dim = gathering->mesh->grid.dim;
+  double *value[GX_MAX_DIM], *gradient[GX_MAX_TENSOR];
+  if (gathering->value) gx_block_part(block, dim, gathering->value, value);
+  if (gathering->gradient) gx_block_part(block, dim * dim, gathering->gradient, gradient);
+  gx_exchange_gather(&gathering->mesh->exchange, block, NULL, gathering->value ? value : NULL,
+                     gathering->gradient ? gradient : NULL);
+}
+
+void gx_mesh_gather(struct gx_mesh *mesh, double *const *field, double *const *value)
+{
+  struct gathering gathering = {mesh, value, NULL};
+  gx_exchange_lend(&mesh->exchange, field, NULL);
+  gx_blocks_each(&mesh->blocks, gather_block, &gathering);
+}
+
+void gx_mesh_gather_gradient(struct gx_mesh *mesh, double *const *field, double *const *gradient)
+{
+  struct gathering gathering = {mesh, NULL, gradient};
+  gx_exchange_lend(&mesh->exchange, field, NULL);
+  gx_blocks_each(&mesh->blocks, gather_block, &gathering);
+}
+
 void gx_mesh_particle_acceleration(struct gx_space *space, double *const *a)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
-  gx_transfer_gather(&mesh->weights, mesh->a, a);
+  gx_mesh_gather(mesh, mesh->a, a);
 }
 
 /* In blocks, so that nothing is allocated. */
@@ -291,13 +358,13 @@ void gx_mesh_field(const struct gx_space *space, enum gx_field which, size_t n, 
   const int dim = mesh->grid.dim;
   int first[GX_MAX_DIM][BLOCK];
   double S[GX_MAX_DIM][GX_MAX_SUPPORT * BLOCK], D[GX_MAX_DIM][GX_MAX_SUPPORT * BLOCK], half[BLOCK];
-  struct gx_weights weights = {.dim = dim, .support = mesh->weights.support};
+  struct gx_weights weights = {.dim = dim, .support = mesh->grid.axis[0].support};
   for (int i = 0; i < BLOCK; i++) half[i] = 1e-12 * mesh->grid.axis[0].h; /* a hat, but for round-off at its kinks */
   for (size_t from = 0; from < n; from += weights.n) {
     double *out[GX_MAX_DIM];
     weights.n = n - from < BLOCK ? n - from : BLOCK;
     for (int d = 0; d < dim; d++) {
-      weights.stride[d] = mesh->weights.stride[d];
+      weights.stride[d] = mesh->grid.stride[d];
       weights.first[d] = first[d];
       weights.S[d] = S[d];
       weights.D[d] = D[d];

@@ -5,30 +5,27 @@
 
 #include <gridcross/space.h>
 
+#include "blocks.h"
+#include "exchange.h"
 #include "mass.h"
-#include "transfer.h"
 
 struct gx_mesh {
   struct gx_space space;
   struct gx_space_options options;
   struct gx_grid grid;
-  struct gx_weights weights;
+  struct gx_blocks blocks; /* of particles, with their weights and scratch */
+  struct gx_exchange exchange;
   struct gx_mass *consistent; /* NULL: lumped */
   /* nodal fields, [grid.stored]; mass is zero at periodic images, the others are copied there */
-  double *mass;          /* row sums, kg */
-  double *v[GX_MAX_DIM]; /* m/s */
-  double *a[GX_MAX_DIM]; /* m/s^2 */
-  double *u[GX_MAX_DIM]; /* m; moving mesh only */
-  /* scratch, [n] */
-  double *x[GX_MAX_DIM], *half[GX_MAX_DIM];
-  double *T[GX_MAX_TENSOR];         /* what the force scatters by gradients */
-  double *body[GX_MAX_DIM];         /* what it scatters by weights: body force on a particle, N */
-  double *opened[GX_MAX_DIM];       /* y of GX_OPEN, at particles */
+  double *mass;                     /* row sums, kg */
+  double *v[GX_MAX_DIM];            /* m/s */
+  double *a[GX_MAX_DIM];            /* m/s^2 */
+  double *u[GX_MAX_DIM];            /* m; moving mesh only */
+  bool unprojected;                 /* mass and v are still to be assembled, see gx_mesh_postpone */
+  double *half[GX_MAX_DIM];         /* [n] half lengths of particle domains that follow F */
+  double *opened[GX_MAX_DIM];       /* [n] y of GX_OPEN, at particles */
   double *opened_nodes[GX_MAX_DIM]; /* the same at nodes, [grid.stored] */
-  double *gathered_a[GX_MAX_DIM], *gathered_v[GX_MAX_DIM];
-  double *gradient[GX_MAX_TENSOR], *rate_P[GX_MAX_TENSOR]; /* of velocity; of P */
   void *block;
-  int *first_block;
 };
 
 /* A zeroed mesh of `size` bytes (a struct that begins with gx_mesh). */
@@ -45,12 +42,22 @@ enum gx_status gx_mesh_weigh_frozen(struct gx_mesh *mesh, double *const *u);
 enum gx_status gx_mesh_assemble(struct gx_mesh *mesh, double *const *value, double *const *field);
 /* field = M^-1 sum_p m_p value_p S_ip with the mass assembled last. */
 void gx_mesh_project(struct gx_mesh *mesh, double *const *value, double *const *field);
-/* P of the particles from their F, unless it is integrated by rate; GX_TANGLED where det F <= 0, either way. */
-enum gx_status gx_mesh_stress(struct gx_mesh *mesh);
-/* v_p <- flip (v_p + kick S a) + (1 - flip) S v, from gathered_a and gathered_v; the latter is not looked at where flip is 1. */
-void gx_mesh_kick_particles(struct gx_mesh *mesh, double kick);
-/* Nodal acceleration from the forces of T and of the problem's body force at time t. */
-void gx_mesh_accelerate(struct gx_mesh *mesh, double t);
+/* Assembles mass and, where it is projected each step, v from the particles: lumped, not now but in gx_mesh_accelerate, which does all
+ * in one pass, or in gx_mesh_catch_up, which whoever needs them before calls. */
+enum gx_status gx_mesh_postpone(struct gx_mesh *mesh);
+void gx_mesh_catch_up(struct gx_mesh *mesh);
+/* Nodal acceleration from stress and from the problem's body force at time t. load: makes T of a block, what the force scatters by
+ * gradients; returns the first particle of the block with det F <= 0, or -1. GX_TANGLED where there is one. */
+enum gx_status gx_mesh_accelerate(struct gx_mesh *mesh, double t, long (*load)(struct gx_mesh *mesh, struct gx_block *block));
+/* P of a block from its F, unless it is integrated by rate; returns as load. */
+long gx_mesh_stress(struct gx_mesh *mesh, struct gx_block *block);
+/* A load: T = -V0 P of the P that the particles have. */
+long gx_mesh_load_nominal(struct gx_mesh *mesh, struct gx_block *block);
+/* v_p <- flip (v_p + kick S a) + (1 - flip) S v, from a and v of the block; the latter is not looked at where flip is 1. */
+void gx_mesh_kick_block(const struct gx_mesh *mesh, const struct gx_block *block, double kick);
+/* Nodal fields at all particles, and their gradients. */
+void gx_mesh_gather(struct gx_mesh *mesh, double *const *field, double *const *value);
+void gx_mesh_gather_gradient(struct gx_mesh *mesh, double *const *field, double *const *gradient);
 double gx_mesh_kinetic(const struct gx_space *space);
 /* Adds component arrays to the list of what a space advances. */
 void gx_mesh_append(struct gx_state *state, int count, double *const *array, size_t length);

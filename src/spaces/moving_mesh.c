@@ -41,101 +41,166 @@ GX_CLONES static void add_one(size_t n, double *F)
   for (size_t p = 0; p < n; p++) F[p] += 1;
 }
 
-static void deformation_gradient(struct gx_mesh *mesh)
+/* F = 1 + grad u of the lent u. */
+static void deform_block(const struct gx_mesh *mesh, const struct gx_block *block)
 {
-  struct gx_particles *particles = mesh->space.particles;
-  int dim = particles->dim;
-  gx_transfer_gather_gradient(&mesh->weights, mesh->u, particles->F);
-  for (int d = 0; d < dim; d++) add_one(particles->n, particles->F[d * dim + d]);
+  const int dim = mesh->grid.dim;
+  double *F[GX_MAX_TENSOR];
+  gx_block_part(block, dim * dim, mesh->space.particles->F, F);
+  gx_exchange_gather(&mesh->exchange, block, NULL, NULL, F);
+  for (int d = 0; d < dim; d++) add_one(block->n, F[d * dim + d]);
 }
 
-GX_CLONES static void nominal(size_t n, const double *restrict V0, const double *restrict P, double *restrict T)
+static void visit_to_deform(void *context, struct gx_block *block)
 {
-  for (size_t p = 0; p < n; p++) T[p] = -V0[p] * P[p];
+  deform_block(context, block);
+}
+
+static void deform(struct gx_mesh *mesh)
+{
+  gx_exchange_lend(&mesh->exchange, mesh->u, NULL);
+  gx_blocks_each(&mesh->blocks, visit_to_deform, mesh);
+}
+
+static long load(struct gx_mesh *mesh, struct gx_block *block)
+{
+  deform_block(mesh, block);
+  const long tangled = gx_mesh_stress(mesh, block);
+  gx_mesh_load_nominal(mesh, block);
+  return tangled;
 }
 
 static enum gx_status accelerate(struct gx_space *space, double t)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
-  struct gx_particles *particles = space->particles;
-  int dim = particles->dim;
-  deformation_gradient(mesh);
-  GX_TRY(gx_mesh_stress(mesh));
-  for (int k = 0; k < dim * dim; k++) nominal(particles->n, particles->V0, particles->P[k], mesh->T[k]);
-  gx_mesh_accelerate(mesh, t);
-  return GX_OK;
+  gx_exchange_lend(&mesh->exchange, mesh->u, NULL);
+  return gx_mesh_accelerate(mesh, t, load);
 }
 
-/* dP/dt at the current F for dF/dt = grad v. */
-static void rate_of_stress(struct gx_mesh *mesh, double *const *rate_P)
+/* dP/dt of a block at its F for dF/dt = grad v of the lent v. */
+struct straining {
+  struct gx_mesh *mesh;
+  double span;           /* s, added to P; or */
+  double *const *rate_P; /* [dim * dim][n] kept; NULL: not */
+};
+
+static void strain_block(void *context, struct gx_block *block)
 {
-  struct gx_particles *particles = mesh->space.particles;
+  const struct straining *straining = context;
+  const struct gx_mesh *mesh = straining->mesh;
   const struct gx_posed *posed = mesh->space.posed;
-  deformation_gradient(mesh);
-  gx_transfer_gather_gradient(&mesh->weights, mesh->v, mesh->gradient);
-  posed->problem->material->piola_rate(&posed->options.moduli, particles->dim, particles->n, particles->F, mesh->gradient,
-                                       rate_P);
+  const int dim = mesh->grid.dim;
+  double *F[GX_MAX_TENSOR], *P[GX_MAX_TENSOR], *rate[GX_MAX_TENSOR], *const *rate_P = block->rate_P;
+  gx_block_part(block, dim * dim, mesh->space.particles->F, F);
+  gx_block_part(block, dim * dim, mesh->space.particles->P, P);
+  if (straining->rate_P) {
+    gx_block_part(block, dim * dim, straining->rate_P, rate);
+    rate_P = rate;
+  }
+  gx_exchange_gather(&mesh->exchange, block, NULL, NULL, block->gradient);
+  posed->problem->material->piola_rate(&posed->options.moduli, dim, block->n, F, block->gradient, rate_P);
+  for (int k = 0; !straining->rate_P && k < dim * dim; k++) gx_vector_add(block->n, straining->span, rate_P[k], P[k]);
+}
+
+/* Stress by rate: by span, or its rate into rate_P. */
+static void rate_of_stress(struct gx_mesh *mesh, double span, double *const *rate_P)
+{
+  struct straining straining = {mesh, span, rate_P};
+  deform(mesh);
+  gx_exchange_lend(&mesh->exchange, mesh->v, NULL);
+  gx_blocks_each(&mesh->blocks, strain_block, &straining);
 }
 
 static void strain(struct gx_mesh *mesh, double span)
 {
-  const struct gx_particles *particles = mesh->space.particles;
-  if (!mesh->options.stress_rate) return; /* F comes from u_i */
-  rate_of_stress(mesh, mesh->rate_P);
-  for (int k = 0; k < particles->dim * particles->dim; k++) gx_vector_add(particles->n, span, mesh->rate_P[k], particles->P[k]);
+  if (mesh->options.stress_rate) rate_of_stress(mesh, span, NULL); /* else F comes from u_i */
+}
+
+/* Particles that carry velocity and position follow the lent nodes. */
+struct following {
+  struct gx_mesh *mesh;
+  double kick, drift; /* s */
+};
+
+static void follow_block(void *context, struct gx_block *block)
+{
+  const struct following *following = context;
+  const struct gx_mesh *mesh = following->mesh;
+  struct gx_particles *particles = mesh->space.particles;
+  const size_t from = block->from;
+  gx_exchange_gather(&mesh->exchange, block, following->kick != 0 ? block->a : NULL, block->v, NULL);
+  if (following->kick != 0) gx_mesh_kick_block(mesh, block, following->kick);
+  for (int d = 0; following->drift != 0 && d < particles->dim; d++)
+    gx_vector_add(block->n, following->drift, mesh->options.particle_motion ? particles->v[d] + from : block->v[d],
+                  particles->u[d] + from);
 }
 
 static void advance(struct gx_space *space, double kick, double span, double drift)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
-  struct gx_particles *particles = space->particles;
-  int dim = particles->dim;
-  bool carried = mesh->options.each_step; /* particles carry the state of velocity and position */
+  const int dim = mesh->grid.dim;
   if (kick != 0)
     for (int d = 0; d < dim; d++) gx_vector_add(mesh->grid.stored, kick, mesh->a[d], mesh->v[d]);
   if (span != 0) strain(mesh, span);
   if (drift != 0)
     for (int d = 0; d < dim; d++) gx_vector_add(mesh->grid.stored, drift, mesh->v[d], mesh->u[d]);
-  if (!carried) return;
-  gx_transfer_gather(&mesh->weights, mesh->v, mesh->gathered_v);
-  if (kick != 0) {
-    gx_transfer_gather(&mesh->weights, mesh->a, mesh->gathered_a);
-    gx_mesh_kick_particles(mesh, kick);
+  if (!mesh->options.each_step) return;
+  struct following following = {mesh, kick, drift};
+  gx_exchange_lend(&mesh->exchange, mesh->v, kick != 0 ? mesh->a : NULL);
+  gx_blocks_each(&mesh->blocks, follow_block, &following);
+}
+
+static void open_block(void *context, struct gx_block *block)
+{
+  const struct following *following = context;
+  const struct gx_mesh *mesh = following->mesh;
+  gx_exchange_gather(&mesh->exchange, block, NULL, block->v, NULL);
+  for (int d = 0; d < mesh->grid.dim; d++) {
+    const double *from = mesh->space.particles->u[d] + block->from;
+    double *to = mesh->opened[d] + block->from;
+    for (size_t p = 0; p < block->n; p++) to[p] = from[p] + following->drift * block->v[d][p];
   }
-  if (drift != 0)
-    for (int d = 0; d < dim; d++)
-      gx_vector_add(particles->n, drift, mesh->options.particle_motion ? particles->v[d] : mesh->gathered_v[d], particles->u[d]);
+}
+
+static void close_block(void *context, struct gx_block *block)
+{
+  const struct following *following = context;
+  const struct gx_mesh *mesh = following->mesh;
+  gx_exchange_gather(&mesh->exchange, block, NULL, block->v, NULL);
+  for (int d = 0; d < mesh->grid.dim; d++) {
+    const double *from = mesh->opened[d] + block->from;
+    double *to = mesh->space.particles->u[d] + block->from;
+    for (size_t p = 0; p < block->n; p++) to[p] = from[p] + following->drift * block->v[d][p];
+  }
 }
 
 /* Weights and mass never change, so that most of these have nothing to do. */
 static enum gx_status twofold(struct gx_space *space, enum gx_primitive primitive, double span)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
-  struct gx_particles *particles = space->particles;
-  bool open = primitive == GX_OPEN;
+  const bool open = primitive == GX_OPEN;
   if (primitive == GX_STRAIN_BACK) strain(mesh, span);
-  for (int d = 0; d < particles->dim && primitive == GX_KICK_NODES; d++)
+  for (int d = 0; d < mesh->grid.dim && primitive == GX_KICK_NODES; d++)
     gx_vector_add(mesh->grid.stored, span, mesh->a[d], mesh->v[d]);
   if (!open && primitive != GX_CLOSE) return GX_OK;
-  gx_transfer_gather(&mesh->weights, mesh->v, mesh->gathered_v);
-  for (int d = 0; d < particles->dim; d++) {
+  for (int d = 0; d < mesh->grid.dim; d++) {
     double *y = mesh->opened_nodes[d], *u = mesh->u[d];
     for (size_t i = 0; i < mesh->grid.stored; i++) *(open ? &y[i] : &u[i]) = (open ? u[i] : y[i]) + span * mesh->v[d][i];
-    if (!mesh->options.each_step) continue;
-    double *y_p = mesh->opened[d], *u_p = particles->u[d];
-    for (size_t p = 0; p < particles->n; p++)
-      *(open ? &y_p[p] : &u_p[p]) = (open ? u_p[p] : y_p[p]) + span * mesh->gathered_v[d][p];
   }
+  if (!mesh->options.each_step) return GX_OK;
+  struct following following = {mesh, 0, span};
+  gx_exchange_lend(&mesh->exchange, mesh->v, NULL);
+  gx_blocks_each(&mesh->blocks, open ? open_block : close_block, &following);
   return GX_OK;
 }
 
 static void settle(struct gx_space *space)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
-  deformation_gradient(mesh);
+  deform(mesh);
   if (mesh->options.each_step) return;
-  gx_transfer_gather(&mesh->weights, mesh->u, space->particles->u);
-  gx_transfer_gather(&mesh->weights, mesh->v, space->particles->v);
+  gx_mesh_gather(mesh, mesh->u, space->particles->u);
+  gx_mesh_gather(mesh, mesh->v, space->particles->v);
 }
 
 static void state(struct gx_space *space, struct gx_state *list)
@@ -162,17 +227,17 @@ static void rates(struct gx_space *space, double *const *rate)
   for (int d = 0; d < dim; d++) memcpy(rate[d], mesh->v[d], mesh->grid.stored * sizeof(double));
   rate += dim;
   if (mesh->options.each_step) {
-    gx_transfer_gather(&mesh->weights, mesh->a, rate);
+    gx_mesh_gather(mesh, mesh->a, rate);
     if (mesh->options.particle_motion)
       for (int d = 0; d < dim; d++) memcpy(rate[dim + d], particles->v[d], particles->n * sizeof(double));
     else
-      gx_transfer_gather(&mesh->weights, mesh->v, rate + dim);
+      gx_mesh_gather(mesh, mesh->v, rate + dim);
     rate += 2 * dim;
   } else {
     for (int d = 0; d < dim; d++) memcpy(rate[d], mesh->a[d], mesh->grid.stored * sizeof(double));
     rate += dim;
   }
-  if (mesh->options.stress_rate) rate_of_stress(mesh, rate);
+  if (mesh->options.stress_rate) rate_of_stress(mesh, 0, rate);
 }
 
 const struct gx_space_kind gx_moving_mesh = {

@@ -5,6 +5,8 @@
  * V sigma = V0 P F^T, so P is the only stress that is kept. */
 #include "mesh.h"
 
+#include <string.h>
+
 #include "../core/tensor.h"
 #include "../core/vector.h"
 
@@ -15,8 +17,7 @@ static enum gx_status weights(struct gx_space *space)
 
 static enum gx_status project(struct gx_space *space)
 {
-  struct gx_mesh *mesh = (struct gx_mesh *)space;
-  return gx_mesh_assemble(mesh, mesh->options.each_step ? space->particles->v : NULL, mesh->v);
+  return gx_mesh_postpone((struct gx_mesh *)space);
 }
 
 static enum gx_status create(const struct gx_space_kind *kind, struct gx_space **space, const struct gx_space_options *options,
@@ -32,16 +33,16 @@ static enum gx_status create(const struct gx_space_kind *kind, struct gx_space *
 }
 
 /* T = -V0 P F^T = -V sigma */
-GX_CORE void kirchhoff_points(const int dim, const struct gx_particles *particles, double *const *T)
+GX_CORE void kirchhoff_points(const int dim, const struct gx_particles *particles, const struct gx_block *block)
 {
-  const double *F[GX_MAX_TENSOR], *P[GX_MAX_TENSOR], *V0 = particles->V0;
+  const double *F[GX_MAX_TENSOR], *P[GX_MAX_TENSOR], *V0 = particles->V0 + block->from;
   double *restrict out[GX_MAX_TENSOR];
   for (int k = 0; k < dim * dim; k++) {
-    F[k] = particles->F[k];
-    P[k] = particles->P[k];
-    out[k] = T[k];
+    F[k] = particles->F[k] + block->from;
+    P[k] = particles->P[k] + block->from;
+    out[k] = block->T[k];
   }
-  for (size_t p = 0; p < particles->n; p++)
+  for (size_t p = 0; p < block->n; p++)
     for (int i = 0; i < dim; i++)
       for (int j = 0; j < dim; j++) {
         double sum = 0;
@@ -50,18 +51,21 @@ GX_CORE void kirchhoff_points(const int dim, const struct gx_particles *particle
       }
 }
 
-GX_CLONES static void kirchhoff(const struct gx_particles *particles, double *const *T)
+GX_CLONES static void kirchhoff(const struct gx_particles *particles, const struct gx_block *block)
 {
-  GX_FOR_DIM(particles->dim, kirchhoff_points(dim, particles, T))
+  GX_FOR_DIM(particles->dim, kirchhoff_points(dim, particles, block))
+}
+
+static long load(struct gx_mesh *mesh, struct gx_block *block)
+{
+  long tangled = gx_mesh_stress(mesh, block);
+  kirchhoff(mesh->space.particles, block);
+  return tangled;
 }
 
 static enum gx_status accelerate(struct gx_space *space, double t)
 {
-  struct gx_mesh *mesh = (struct gx_mesh *)space;
-  GX_TRY(gx_mesh_stress(mesh));
-  kirchhoff(space->particles, mesh->T);
-  gx_mesh_accelerate(mesh, t);
-  return GX_OK;
+  return gx_mesh_accelerate((struct gx_mesh *)space, t, load);
 }
 
 /* L <- L F: from the velocity gradient to the rate of F. */
@@ -90,47 +94,60 @@ GX_CLONES static void stretch(int dimension, size_t n, double *const *F, double 
   GX_FOR_DIM(dimension, stretch_points(dim, n, F, L))
 }
 
-static void rate_of_stress(struct gx_space *space, double *const *rate_F, double *const *rate_P)
+static void rate_of_stress(const struct gx_mesh *mesh, const struct gx_block *block, double *const *rate_F, double *const *rate_P)
 {
-  const struct gx_particles *particles = space->particles;
-  space->posed->problem->material->piola_rate(&space->posed->options.moduli, particles->dim, particles->n, particles->F, rate_F,
-                                              rate_P);
+  const struct gx_posed *posed = mesh->space.posed;
+  const int dim = mesh->grid.dim;
+  double *F[GX_MAX_TENSOR];
+  gx_block_part(block, dim * dim, mesh->space.particles->F, F);
+  posed->problem->material->piola_rate(&posed->options.moduli, dim, block->n, F, rate_F, rate_P);
 }
 
-/* What an advance needs of the nodes, in one pass when it is all. */
-static void gather(struct gx_mesh *mesh, bool acceleration, bool velocity, bool gradient)
+static void add_rate_of_stress(const struct gx_mesh *mesh, const struct gx_block *block, double span)
 {
-  if (acceleration && velocity && gradient) {
-    gx_transfer_gather_all(&mesh->weights, mesh->a, mesh->v, mesh->gathered_a, mesh->gathered_v, mesh->gradient);
-    return;
+  if (!mesh->options.stress_rate) return;
+  rate_of_stress(mesh, block, block->gradient, block->rate_P);
+  for (int k = 0; k < mesh->grid.dim * mesh->grid.dim; k++)
+    gx_vector_add(block->n, span, block->rate_P[k], mesh->space.particles->P[k] + block->from);
+}
+
+struct advance {
+  struct gx_mesh *mesh;
+  double kick, strain, drift; /* s */
+};
+
+static void advance_block(void *context, struct gx_block *block)
+{
+  const struct advance *advance = context;
+  const double kick = advance->kick, strain = advance->strain, drift = advance->drift;
+  const struct gx_mesh *mesh = advance->mesh;
+  struct gx_particles *particles = mesh->space.particles;
+  const int dim = particles->dim;
+  const bool blend = mesh->options.pic || mesh->options.flip < 1;
+  gx_exchange_gather(&mesh->exchange, block, kick != 0 ? block->a : NULL, drift != 0 || (kick != 0 && blend) ? block->v : NULL,
+                     strain != 0 ? block->gradient : NULL);
+  if (kick != 0) gx_mesh_kick_block(mesh, block, kick);
+  if (strain != 0) {
+    double *F[GX_MAX_TENSOR];
+    gx_block_part(block, dim * dim, particles->F, F);
+    stretch(dim, block->n, F, block->gradient);
+    add_rate_of_stress(mesh, block, strain);
+    for (int k = 0; k < dim * dim; k++) gx_vector_add(block->n, strain, block->gradient[k], F[k]);
   }
-  if (acceleration) gx_transfer_gather(&mesh->weights, mesh->a, mesh->gathered_a);
-  if (velocity) gx_transfer_gather(&mesh->weights, mesh->v, mesh->gathered_v);
-  if (gradient) gx_transfer_gather_gradient(&mesh->weights, mesh->v, mesh->gradient);
+  for (int d = 0; drift != 0 && d < dim; d++)
+    gx_vector_add(block->n, drift, mesh->options.particle_motion ? particles->v[d] + block->from : block->v[d],
+                  particles->u[d] + block->from);
 }
 
 static void advance(struct gx_space *space, double kick, double strain, double drift)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
-  struct gx_particles *particles = space->particles;
-  int dim = particles->dim;
-  size_t n = particles->n;
+  struct advance advance = {mesh, kick, strain, drift};
+  gx_mesh_catch_up(mesh);
   if (kick != 0)
-    for (int d = 0; d < dim; d++) gx_vector_add(mesh->grid.stored, kick, mesh->a[d], mesh->v[d]);
-  bool blend = mesh->options.pic || mesh->options.flip < 1;
-  gather(mesh, kick != 0, drift != 0 || (kick != 0 && blend), strain != 0);
-  if (kick != 0) gx_mesh_kick_particles(mesh, kick);
-  if (strain != 0) {
-    stretch(dim, n, particles->F, mesh->gradient);
-    if (mesh->options.stress_rate) {
-      rate_of_stress(space, mesh->gradient, mesh->rate_P);
-      for (int k = 0; k < dim * dim; k++) gx_vector_add(n, strain, mesh->rate_P[k], particles->P[k]);
-    }
-    for (int k = 0; k < dim * dim; k++) gx_vector_add(n, strain, mesh->gradient[k], particles->F[k]);
-  }
-  if (drift != 0)
-    for (int d = 0; d < dim; d++)
-      gx_vector_add(n, drift, mesh->options.particle_motion ? particles->v[d] : mesh->gathered_v[d], particles->u[d]);
+    for (int d = 0; d < mesh->grid.dim; d++) gx_vector_add(mesh->grid.stored, kick, mesh->a[d], mesh->v[d]);
+  gx_exchange_lend(&mesh->exchange, mesh->v, kick != 0 ? mesh->a : NULL);
+  gx_blocks_each(&mesh->blocks, advance_block, &advance);
 }
 
 /* F <- (I - span L)^-1 F with L the velocity gradient. */
@@ -152,23 +169,50 @@ GX_CORE void stretch_back_points(const int dim, size_t n, double span, double *c
   }
 }
 
-static void strain_back(struct gx_mesh *mesh, double span)
+static void strain_back_block(void *context, struct gx_block *block)
 {
-  struct gx_particles *particles = mesh->space.particles;
-  int dimension = particles->dim;
-  size_t n = particles->n;
-  gx_transfer_gather_gradient(&mesh->weights, mesh->v, mesh->gradient);
-  GX_FOR_DIM(dimension, stretch_back_points(dim, n, span, mesh->gradient, particles->F))
-  if (!mesh->options.stress_rate) return;
-  stretch(dimension, n, particles->F, mesh->gradient);
-  rate_of_stress(&mesh->space, mesh->gradient, mesh->rate_P);
-  for (int k = 0; k < dimension * dimension; k++) gx_vector_add(n, span, mesh->rate_P[k], particles->P[k]);
+  const struct advance *advance = context;
+  const struct gx_mesh *mesh = advance->mesh;
+  const int dimension = mesh->grid.dim;
+  const double span = advance->strain;
+  double *F[GX_MAX_TENSOR];
+  gx_block_part(block, dimension * dimension, mesh->space.particles->F, F);
+  gx_exchange_gather(&mesh->exchange, block, NULL, NULL, block->gradient);
+  GX_FOR_DIM(dimension, stretch_back_points(dim, block->n, span, block->gradient, F))
+  if (mesh->options.stress_rate) stretch(dimension, block->n, F, block->gradient);
+  add_rate_of_stress(mesh, block, span);
+}
+
+static void open_block(void *context, struct gx_block *block)
+{
+  const struct advance *advance = context;
+  const struct gx_mesh *mesh = advance->mesh;
+  gx_exchange_gather(&mesh->exchange, block, NULL, block->v, NULL);
+  for (int d = 0; d < mesh->grid.dim; d++) {
+    const double *from = mesh->space.particles->u[d] + block->from;
+    double *to = mesh->opened[d] + block->from;
+    for (size_t p = 0; p < block->n; p++) to[p] = from[p] + advance->drift * block->v[d][p];
+  }
+}
+
+static void close_block(void *context, struct gx_block *block)
+{
+  const struct advance *advance = context;
+  const struct gx_mesh *mesh = advance->mesh;
+  gx_exchange_gather(&mesh->exchange, block, NULL, block->v, NULL);
+  for (int d = 0; d < mesh->grid.dim; d++) {
+    const double *from = mesh->opened[d] + block->from;
+    double *to = mesh->space.particles->u[d] + block->from;
+    for (size_t p = 0; p < block->n; p++) to[p] = from[p] + advance->drift * block->v[d][p];
+  }
 }
 
 static enum gx_status twofold(struct gx_space *space, enum gx_primitive primitive, double span)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
   struct gx_particles *particles = space->particles;
+  struct advance advance = {mesh, 0, span, span};
+  gx_mesh_catch_up(mesh);
   switch (primitive) {
   case GX_WEIGHTS_FROZEN:
     return gx_mesh_weigh_frozen(mesh, particles->u);
@@ -179,16 +223,13 @@ static enum gx_status twofold(struct gx_space *space, enum gx_primitive primitiv
   case GX_KICK_NODES:
     for (int d = 0; d < particles->dim; d++) gx_vector_add(mesh->grid.stored, span, mesh->a[d], mesh->v[d]);
     return GX_OK;
-  case GX_STRAIN_BACK:
-    strain_back(mesh, span);
-    return GX_OK;
-  default: /* GX_OPEN, GX_CLOSE */
-    gx_transfer_gather(&mesh->weights, mesh->v, mesh->gathered_v);
-    for (int d = 0; d < particles->dim; d++) {
-      double *from = primitive == GX_OPEN ? particles->u[d] : mesh->opened[d];
-      double *to = primitive == GX_OPEN ? mesh->opened[d] : particles->u[d];
-      for (size_t p = 0; p < particles->n; p++) to[p] = from[p] + span * mesh->gathered_v[d][p];
-    }
+  default: /* GX_STRAIN_BACK, GX_OPEN, GX_CLOSE */
+    gx_exchange_lend(&mesh->exchange, mesh->v, NULL);
+    gx_blocks_each(&mesh->blocks,
+                   primitive == GX_STRAIN_BACK ? strain_back_block
+                   : primitive == GX_OPEN      ? open_block
+                                               : close_block,
+                   &advance);
     return GX_OK;
   }
 }
@@ -207,23 +248,36 @@ static void state(struct gx_space *space, struct gx_state *list)
   if (!mesh->options.each_step) gx_mesh_append(list, dim, mesh->v, mesh->grid.stored);
 }
 
+struct rates {
+  struct gx_mesh *mesh;
+  double *const *rate;
+};
+
+static void rates_of_block(void *context, struct gx_block *block)
+{
+  const struct rates *rates = context;
+  const struct gx_mesh *mesh = rates->mesh;
+  const struct gx_particles *particles = mesh->space.particles;
+  const int dim = particles->dim;
+  double *rate[2 * GX_MAX_DIM + 2 * GX_MAX_TENSOR], *F[GX_MAX_TENSOR];
+  gx_block_part(block, dim * dim, particles->F, F);
+  gx_block_part(block, 2 * dim + dim * dim * (1 + mesh->options.stress_rate), rates->rate, rate);
+  double *const *rate_u = rate, *const *rate_v = rate + dim, *const *rate_F = rate + 2 * dim;
+  gx_exchange_gather(&mesh->exchange, block, rate_v, rate_u, rate_F);
+  for (int d = 0; mesh->options.particle_motion && d < dim; d++)
+    memcpy(rate_u[d], particles->v[d] + block->from, block->n * sizeof(double));
+  stretch(dim, block->n, F, rate_F);
+  if (mesh->options.stress_rate) rate_of_stress(mesh, block, rate_F, rate_F + dim * dim);
+}
+
 static void rates(struct gx_space *space, double *const *rate)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
-  struct gx_particles *particles = space->particles;
-  int dim = particles->dim;
-  size_t n = particles->n;
-  double *const *rate_u = rate, *const *rate_v = rate + dim, *const *rate_F = rate + 2 * dim;
-  gx_transfer_gather_all(&mesh->weights, mesh->a, mesh->v, rate_v, rate_u, rate_F);
-  if (mesh->options.particle_motion)
-    for (int d = 0; d < dim; d++)
-      for (size_t p = 0; p < n; p++) rate_u[d][p] = particles->v[d][p];
-  stretch(dim, n, particles->F, rate_F);
-  rate += 2 * dim + dim * dim;
-  if (mesh->options.stress_rate) {
-    rate_of_stress(space, rate_F, rate);
-    rate += dim * dim;
-  }
+  const int dim = mesh->grid.dim;
+  struct rates rates = {mesh, rate};
+  gx_exchange_lend(&mesh->exchange, mesh->v, mesh->a);
+  gx_blocks_each(&mesh->blocks, rates_of_block, &rates);
+  rate += 2 * dim + dim * dim * (1 + mesh->options.stress_rate);
   if (!mesh->options.each_step)
     for (int d = 0; d < dim; d++)
       for (size_t i = 0; i < mesh->grid.stored; i++) rate[d][i] = mesh->a[d][i];

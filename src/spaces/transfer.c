@@ -1,53 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cores are written for any dimension and support and inlined with both constant for the common supports. They visit a particle's
- * nodes row by row along the first direction, in which nodes are consecutive: what does not change in a row is multiplied once. */
+/* Cores are written for any dimension and support and inlined with both constant for the common supports. */
 #include "transfer.h"
 
-#include <gridcross/basis.h>
-
-#include "../core/kernel.h"
-
-/* Weights of one particle: of each direction, and products over the directions after the first in the row at hand. */
-struct stencil {
-  size_t first; /* node */
-  double S[GX_MAX_DIM][GX_MAX_SUPPORT], D[GX_MAX_DIM][GX_MAX_SUPPORT];
-};
-
-struct row {
-  size_t node;              /* first node of the row */
-  double W;                 /* product of S */
-  double slope[GX_MAX_DIM]; /* the same with D along direction e >= 1 */
-};
-
-GX_CORE void load_stencil(const int dim, const int s, const struct gx_weights *w, size_t p, const bool slopes,
-                          struct stencil *stencil)
-{
-  stencil->first = 0;
-  for (int d = 0; d < dim; d++) {
-    stencil->first += (size_t)w->first[d][p] * (d ? w->stride[d] : 1);
-    for (int k = 0; k < s; k++) {
-      stencil->S[d][k] = w->S[d][(size_t)k * w->n + p];
-      if (slopes) stencil->D[d][k] = w->D[d][(size_t)k * w->n + p];
-    }
-  }
-}
-
-GX_CORE struct row row_of(const int dim, const struct gx_weights *w, const struct stencil *stencil, int k1, int k2,
-                          const bool slopes)
-{
-  const int k[GX_MAX_DIM] = {0, k1, k2};
-  struct row row = {.node = stencil->first, .W = 1, .slope = {1, 1, 1}};
-  for (int d = 1; d < dim; d++) {
-    row.node += (size_t)k[d] * w->stride[d];
-    for (int e = 1; slopes && e < dim; e++) row.slope[e] *= (e == d ? stencil->D : stencil->S)[d][k[d]];
-    row.W *= stencil->S[d][k[d]];
-  }
-  return row;
-}
-
-#define FOR_ROWS(dim, s)                                                                                                         \
-  for (int k2 = 0; k2 < ((dim) > 2 ? (s) : 1); k2++)                                                                             \
-    for (int k1 = 0; k1 < ((dim) > 1 ? (s) : 1); k1++)
+#include "stencil.h"
 
 /* Visits all particles; in 1-D from distant parts of the line in turn, so that adding to a node does not wait for the particle
  * before to have done so. */
@@ -95,13 +50,13 @@ GX_CORE void scatter(const int dim, const int s, const struct gx_weights *w, con
   }
   FOR_PARTICLES(dim, w->n, p)
   {
-    struct stencil stencil;
-    load_stencil(dim, s, w, p, false, &stencil);
+    struct gx_stencil stencil;
+    gx_stencil_load(dim, s, w, p, false, &stencil);
     double mass = m[p], momentum[GX_MAX_DIM];
     for (int d = 0; d < dim; d++) momentum[d] = mass * in[d][p];
-    FOR_ROWS(dim, s)
+    GX_STENCIL_ROWS(dim, s)
     {
-      const struct row row = row_of(dim, w, &stencil, k1, k2, false);
+      const struct gx_stencil_row row = gx_stencil_row(dim, w, &stencil, k1, k2, false);
       for (int k = 0; total && k < s; k++) total[row.node + (size_t)k] += mass * row.W * stencil.S[0][k];
       for (int d = 0; value && d < dim; d++)
         for (int k = 0; k < s; k++) out[d][row.node + (size_t)k] += momentum[d] * row.W * stencil.S[0][k];
@@ -132,14 +87,14 @@ GX_CORE void scatter_force(const int dim, const int s, const struct gx_weights *
   for (int k = 0; k < dim * dim; k++) stress[k] = T[k];
   FOR_PARTICLES(dim, w->n, p)
   {
-    struct stencil stencil;
-    load_stencil(dim, s, w, p, true, &stencil);
+    struct gx_stencil stencil;
+    gx_stencil_load(dim, s, w, p, true, &stencil);
     double load[GX_MAX_DIM], t[GX_MAX_TENSOR];
     for (int d = 0; d < dim; d++) load[d] = body ? in[d][p] : 0;
     for (int k = 0; k < dim * dim; k++) t[k] = stress[k][p];
-    FOR_ROWS(dim, s)
+    GX_STENCIL_ROWS(dim, s)
     {
-      const struct row row = row_of(dim, w, &stencil, k1, k2, true);
+      const struct gx_stencil_row row = gx_stencil_row(dim, w, &stencil, k1, k2, true);
       for (int d = 0; d < dim; d++) {
         double along = t[d * dim] * row.W, across = load[d] * row.W;
         for (int e = 1; e < dim; e++) across += t[d * dim + e] * row.slope[e];
@@ -182,12 +137,12 @@ GX_CORE void gather(const int dim, const int s, const struct gx_weights *w, cons
   }
   for (int k = 0; k < dim * dim; k++) out_g[k] = take_slopes ? gradient[k] : NULL;
   for (size_t p = 0; p < w->n; p++) {
-    struct stencil stencil;
-    load_stencil(dim, s, w, p, take_slopes, &stencil);
+    struct gx_stencil stencil;
+    gx_stencil_load(dim, s, w, p, take_slopes, &stencil);
     double sum_a[GX_MAX_DIM] = {0}, sum_v[GX_MAX_DIM] = {0}, sum_g[GX_MAX_TENSOR] = {0};
-    FOR_ROWS(dim, s)
+    GX_STENCIL_ROWS(dim, s)
     {
-      const struct row row = row_of(dim, w, &stencil, k1, k2, take_slopes);
+      const struct gx_stencil_row row = gx_stencil_row(dim, w, &stencil, k1, k2, take_slopes);
       for (int d = 0; d < dim; d++) {
         double row_a = 0, row_v = 0, row_g = 0;
         for (int k = 0; k < s; k++) {

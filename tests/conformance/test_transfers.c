@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What every basis owes a transfer, in 1-D to 3-D, periodic and bounded: partition of unity, gradients that sum to zero,
- * reproduction of linear fields, scatter and gather adjoint to each other, mass and momentum passed on whole. */
+ * reproduction of linear fields, scatter and gather adjoint to each other, mass and momentum passed on whole; the same by way of
+ * packed nodes. */
 #include <string.h>
 
 #include "check.h"
 #include "points.h"
+#include "spaces/packed.h"
 
 enum { N = 150 };
 
@@ -274,6 +276,105 @@ static void fixed_ends_touch_the_ends_alone(void **state)
   each_setting(check_fixed);
 }
 
+/* Random values: nodes of a packed field, or of the particles. */
+static void fill(double *value, size_t count, uint64_t *seed)
+{
+  for (size_t i = 0; i < count; i++) value[i] = check_random(seed, -1, 1);
+}
+
+/* packed: [stored][4]; its components from `skip` are those of field. */
+static void check_nodes(const struct setting *setting, const double *packed, int skip, int count, double *const *field)
+{
+  for (size_t i = 0; i < setting->points.grid.stored; i++)
+    for (int k = 0; k < count; k++) NEAR(packed[i * GX_PACKED + (size_t)(skip + k)], field[k][i], 1e-12);
+}
+
+static void check_packed_scatter(const struct setting *setting)
+{
+  const struct gx_weights *weights = &setting->points.weights;
+  const int dim = setting->dim;
+  const size_t stored = setting->points.grid.stored, bytes = stored * GX_PACKED * sizeof(double);
+  double **v = fields(dim, N), **T = fields(dim * dim, N), **body = fields(dim, N);
+  double **moment = fields(dim, stored), **force = fields(dim, stored), **loaded = fields(dim, stored),
+         **total = fields(1, stored);
+  double *packed = aligned_alloc(32, 2 * bytes), *other = packed + stored * GX_PACKED;
+  uint64_t seed = 47;
+  for (int d = 0; d < dim; d++) fill(v[d], N, &seed), fill(body[d], N, &seed);
+  for (int k = 0; k < dim * dim; k++) fill(T[k], N, &seed);
+  gx_transfer_scatter(weights, m, v, total[0], moment);
+  gx_transfer_scatter_force(weights, T, NULL, force);
+  gx_transfer_scatter_force(weights, T, body, loaded);
+  memset(packed, 0, 2 * bytes);
+  gx_packed_scatter(weights, m, v, packed, T, body, other); /* in one pass */
+  check_nodes(setting, packed, 0, 1, total);
+  check_nodes(setting, packed, 1, dim, moment);
+  check_nodes(setting, other, 0, dim, loaded);
+  memset(packed, 0, 2 * bytes);
+  gx_packed_scatter(weights, m, NULL, packed, NULL, NULL, NULL);
+  gx_packed_scatter(weights, NULL, NULL, NULL, T, NULL, other);
+  check_nodes(setting, packed, 0, 1, total);
+  check_nodes(setting, other, 0, dim, force);
+  for (size_t i = 0; i < stored; i++)
+    for (int k = 1; k < GX_PACKED; k++) NEAR(packed[i * GX_PACKED + (size_t)k], 0, 0);
+  free(packed);
+  double **nodal[] = {moment, force, loaded}, **vectors[] = {v, body};
+  for (int i = 0; i < 3; i++) fields_free(nodal[i], dim);
+  for (int i = 0; i < 2; i++) fields_free(vectors[i], dim);
+  fields_free(T, dim * dim);
+  fields_free(total, 1);
+}
+
+static void check_packed_gather(const struct setting *setting)
+{
+  const struct gx_weights *weights = &setting->points.weights;
+  const int dim = setting->dim;
+  const size_t stored = setting->points.grid.stored;
+  double **a = fields(dim, stored), **v = fields(dim, stored), **back = fields(dim, stored);
+  double **of_a = fields(dim, N), **of_v = fields(dim, N), **slope = fields(dim * dim, N);
+  double **packed_a = fields(dim, N), **packed_v = fields(dim, N), **packed_slope = fields(dim * dim, N);
+  double *packed = aligned_alloc(32, 2 * stored * GX_PACKED * sizeof(double)), *other = packed + stored * GX_PACKED;
+  uint64_t seed = 53;
+  for (int d = 0; d < dim; d++) fill(a[d], stored, &seed), fill(v[d], stored, &seed);
+  gx_transfer_gather_all(weights, a, v, of_a, of_v, slope);
+  gx_packed_pack(dim, stored, (const double *const *)a, packed);
+  gx_packed_pack(dim, stored, (const double *const *)v, other);
+  gx_packed_gather_all(weights, packed, other, packed_a, packed_v, packed_slope);
+  for (int p = 0; p < N; p++) {
+    for (int d = 0; d < dim; d++) {
+      NEAR(packed_a[d][p], of_a[d][p], 1e-14);
+      NEAR(packed_v[d][p], of_v[d][p], 1e-14);
+    }
+    for (int k = 0; k < dim * dim; k++) NEAR(packed_slope[k][p], slope[k][p], 1e-13 * 11);
+  }
+  gx_packed_gather(weights, packed, of_a); /* the same sums one at a time */
+  gx_packed_gather_gradient(weights, other, slope);
+  for (int p = 0; p < N; p++) {
+    for (int d = 0; d < dim; d++) NEAR(packed_a[d][p], of_a[d][p], 0);
+    for (int k = 0; k < dim * dim; k++) NEAR(packed_slope[k][p], slope[k][p], 0);
+  }
+  gx_packed_unpack(dim, stored, other, back);
+  for (int d = 0; d < dim; d++) assert_memory_equal(back[d], v[d], stored * sizeof(double));
+  free(packed);
+  double **nodal[] = {a, v, back}, **vectors[] = {of_a, of_v, packed_a, packed_v};
+  for (int i = 0; i < 3; i++) fields_free(nodal[i], dim);
+  for (int i = 0; i < 4; i++) fields_free(vectors[i], dim);
+  fields_free(slope, dim * dim);
+  fields_free(packed_slope, dim * dim);
+}
+
+static void check_packed(const struct setting *setting)
+{
+  if (setting->dim == 1) return;
+  check_packed_scatter(setting);
+  check_packed_gather(setting);
+}
+
+static void packed_nodes_see_the_same(void **state)
+{
+  (void)state;
+  each_setting(check_packed);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -282,6 +383,7 @@ int main(void)
       cmocka_unit_test(scatter_is_adjoint_to_gather),
       cmocka_unit_test(mass_and_momentum_pass_whole),
       cmocka_unit_test(fixed_ends_touch_the_ends_alone),
+      cmocka_unit_test(packed_nodes_see_the_same),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
