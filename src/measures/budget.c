@@ -182,20 +182,21 @@ static void add_level(struct gx_budget *budget, struct gx_mesh *mesh, enum gx_bu
 }
 
 /* The levels that accelerations and velocities share; `time` is the entry of their first term. The last is left in `field`. */
-static void add_projections(struct gx_budget *budget, struct gx_space *space, enum gx_budget_entry time, double span,
-                            double *const *exact, double *const *point, double *const *field)
+static enum gx_status add_projections(struct gx_budget *budget, struct gx_space *space, enum gx_budget_entry time, double span,
+                                      double *const *exact, double *const *point, double *const *field)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space, *ideal = budget->integral->mesh;
   const int interpolation = 1, lumping = 2, projection = 3; /* after time */
   add_exact(budget, time, span, exact);
-  gx_integral_project(budget->integral, false, point, ideal->a);
+  GX_TRY(gx_integral_project(budget->integral, false, point, ideal->a));
   add_level(budget, mesh, time + interpolation, span, ideal->a);
   if (!budget->options.consistent) {
-    gx_integral_project(budget->integral, true, point, ideal->a);
+    GX_TRY(gx_integral_project(budget->integral, true, point, ideal->a));
     add_level(budget, mesh, time + lumping, span, ideal->a);
   }
-  gx_mesh_project(mesh, exact, field);
+  GX_TRY(gx_mesh_project(mesh, exact, field));
   add_level(budget, mesh, time + projection, span, field);
+  return GX_OK;
 }
 
 /* Forces with the exact stress, which the particles have after build(). */
@@ -213,7 +214,7 @@ static enum gx_status kick(struct gx_budget *budget, struct gx_space *space, dou
   double **exact = budget->exact.component, **point = budget->point;
   budget->posed->problem->exact(budget->posed, t, NULL, NULL, NULL, exact);
   budget->posed->problem->exact(budget->integral->posed, t, NULL, NULL, NULL, point);
-  add_projections(budget, space, GX_BUDGET_VELOCITY_TIME, span, exact, point, mesh->a);
+  GX_TRY(add_projections(budget, space, GX_BUDGET_VELOCITY_TIME, span, exact, point, mesh->a));
   if (first) value[GX_BUDGET_L2_PROJECTED] = gx_truncation_acceleration(budget->truncation, t, mesh->a);
   gx_truncation_add(budget->truncation, space, t, span);
   GX_TRY(force(budget, space, t));
@@ -228,17 +229,17 @@ static enum gx_status kick(struct gx_budget *budget, struct gx_space *space, dou
 }
 
 /* The velocities of time t at the positions where particles and points are. */
-static void drift(struct gx_budget *budget, struct gx_space *space, double t, double span)
+static enum gx_status drift(struct gx_budget *budget, struct gx_space *space, double t, double span)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
   double **exact = budget->exact.component, **point = budget->point;
   budget->posed->problem->exact(budget->posed, t, NULL, exact, NULL, NULL);
   if (budget->options.particle_motion) {
     add_exact(budget, GX_BUDGET_DISPLACEMENT_TIME, span, exact);
-    return;
+    return GX_OK;
   }
   budget->posed->problem->exact(budget->integral->posed, t, NULL, point, NULL, NULL);
-  add_projections(budget, space, GX_BUDGET_DISPLACEMENT_TIME, span, exact, point, mesh->a);
+  return add_projections(budget, space, GX_BUDGET_DISPLACEMENT_TIME, span, exact, point, mesh->a);
 }
 
 /* gradient <- gradient F^-1 */
@@ -275,20 +276,21 @@ static void exact_gradient(struct gx_budget *budget, double t)
 }
 
 /* berzins2022 eqs 63, 64 with the best nodal velocities; the points are at time t. */
-static void take_velocity(struct gx_budget *budget, struct gx_space *space, double t, double *value)
+static enum gx_status take_velocity(struct gx_budget *budget, struct gx_space *space, double t, double *value)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space, *ideal = budget->integral->mesh;
   const struct gx_problem *problem = budget->posed->problem;
   int dim = budget->particles->dim;
   size_t n = budget->particles->n;
   problem->exact(budget->integral->posed, t, NULL, budget->point, NULL, NULL);
-  gx_integral_project(budget->integral, false, budget->point, ideal->v);
+  GX_TRY(gx_integral_project(budget->integral, false, budget->point, ideal->v));
   problem->exact(budget->posed, t, NULL, budget->exact.component, NULL, NULL);
   gx_mesh_gather(mesh, ideal->v, budget->seen.component);
   value[GX_BUDGET_INF_VELOCITY] = largest(dim, n, budget->exact.component, budget->seen.component);
   exact_gradient(budget, t);
   gx_mesh_gather_gradient(mesh, ideal->v, budget->F);
   value[GX_BUDGET_INF_GRADIENT] = largest(dim * dim, n, budget->gradient, budget->F);
+  return GX_OK;
 }
 
 static double rms_of_jumps(struct gx_jump *jump, double dt)
@@ -347,8 +349,7 @@ static enum gx_status take_stage(struct gx_budget *budget, int j, double t, doub
   GX_TRY(build(budget, at, begin, space));
   GX_TRY(gx_integral_place(budget->integral, at));
   GX_TRY(kick(budget, *space, at, dt * stage->kick, j == 0, value));
-  drift(budget, *space, begin + dt * stage->velocity_time, dt * stage->drift);
-  return GX_OK;
+  return drift(budget, *space, begin + dt * stage->velocity_time, dt * stage->drift);
 }
 
 /* Later stages first: at the end the particles are those of the step's start, ready to be stepped. */
@@ -361,7 +362,7 @@ static enum gx_status take_stages(struct gx_budget *budget, double t, double dt,
     GX_TRY(status);
   }
   GX_TRY(take_stage(budget, 0, t, dt, value, start));
-  take_velocity(budget, *start, t, value);
+  GX_TRY(take_velocity(budget, *start, t, value));
   gx_truncation_velocity(budget->truncation, ((const struct gx_mesh *)*start)->v);
   return GX_OK;
 }

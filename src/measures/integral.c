@@ -148,12 +148,13 @@ enum gx_status gx_integral_place(struct gx_integral *integral, double t)
   return gx_mesh_assemble(integral->mesh, NULL, NULL);
 }
 
-void gx_integral_project(struct gx_integral *integral, bool lumped, double *const *value, double *const *field)
+enum gx_status gx_integral_project(struct gx_integral *integral, bool lumped, double *const *value, double *const *field)
 {
   struct gx_mass *consistent = integral->mesh->consistent;
   if (lumped) integral->mesh->consistent = NULL;
-  gx_mesh_project(integral->mesh, value, field);
+  enum gx_status status = gx_mesh_project(integral->mesh, value, field);
   integral->mesh->consistent = consistent;
+  return status;
 }
 
 double gx_integral_norm(const struct gx_integral *integral, double *const *value)

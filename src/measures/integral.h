@@ -22,7 +22,7 @@ void gx_integral_free(struct gx_integral *integral);
 /* Moves the material under the points to time t. */
 enum gx_status gx_integral_place(struct gx_integral *integral, double t);
 /* field = M^-1 int rho value N dx, with consistent or lumped M; ends held as in the space. value: [dim][n]; field: [dim][stored]. */
-void gx_integral_project(struct gx_integral *integral, bool lumped, double *const *value, double *const *field);
+enum gx_status gx_integral_project(struct gx_integral *integral, bool lumped, double *const *value, double *const *field);
 /* sqrt(int |value|^2 dx) over the grid's coordinate. value: [dim][n]. */
 double gx_integral_norm(const struct gx_integral *integral, double *const *value);
 

@@ -66,16 +66,8 @@ enum gx_status gx_mesh_create(struct gx_mesh **out, size_t size, const struct gx
   mesh->space = (struct gx_space){.kind = kind, .particles = particles, .posed = posed, .outcome = outcome};
   mesh->options = *options;
   lay_out_grid(mesh);
-  const double most = 4e9; /* bytes; a larger band is a slip, or takes longer to factor than any run should */
-  if (options->consistent && gx_mass_bytes(&mesh->grid) > most) {
-    gx_status_set(outcome, GX_REFUSED, -1,
-                  "the consistent mass matrix would take %.3g GB as a band: use fewer cells, a lower degree, or lumped mass",
-                  1e-9 * gx_mass_bytes(&mesh->grid));
-    free(mesh);
-    return GX_REFUSED;
-  }
   double *arrays = gx_aligned_zeros(place_arrays(mesh, NULL) * sizeof(double), &mesh->block);
-  if (options->consistent) mesh->consistent = gx_mass_create(&mesh->grid);
+  if (options->consistent) mesh->consistent = gx_mass_create(&mesh->grid, options->basis, particles);
   if (gx_blocks_init(&mesh->blocks, &mesh->grid, options->basis, particles->n, particles->X, options->consistent,
                      options->team) ||
       gx_exchange_init(&mesh->exchange, &mesh->grid, options->team) || !arrays || (options->consistent && !mesh->consistent)) {
@@ -154,18 +146,16 @@ GX_CLONES static void divide_by_mass(size_t nodes, const double *restrict mass, 
 }
 
 /* field[d] <- M^-1 field[d] with ends held, for every component. */
-static void solve_mass(struct gx_mesh *mesh, double *const *field)
+static enum gx_status solve_mass(struct gx_mesh *mesh, double *const *field)
 {
+  for (int d = 0; d < mesh->grid.dim; d++) gx_grid_fold(&mesh->grid, field[d]);
+  if (mesh->consistent) return gx_mass_solve(mesh->consistent, field, mesh->space.outcome);
   for (int d = 0; d < mesh->grid.dim; d++) {
-    gx_grid_fold(&mesh->grid, field[d]);
-    if (mesh->consistent) {
-      gx_mass_solve(mesh->consistent, d, field[d]);
-      continue;
-    }
     divide_by_mass(mesh->grid.stored, mesh->mass, field[d]);
     gx_grid_fix(&mesh->grid, d, field[d]);
     gx_grid_spread(&mesh->grid, field[d]);
   }
+  return GX_OK;
 }
 
 /* A pass that scatters what the particles carry: value, and with `load` forces. */
@@ -221,11 +211,9 @@ enum gx_status gx_mesh_assemble(struct gx_mesh *mesh, double *const *value, doub
   gx_blocks_each_apart(&mesh->blocks, scatter_block, &scattering);
   gx_exchange_deliver(&mesh->exchange);
   gx_grid_fold(&mesh->grid, mesh->mass);
-  if (mesh->consistent && gx_mass_factor(mesh->consistent, &mesh->blocks.whole, mesh->space.particles->m))
-    return gx_status_set(mesh->space.outcome, GX_SINGULAR, -1,
-                         "the consistent mass matrix is not positive definite: too few particles under a basis function");
-  if (value) solve_mass(mesh, field);
-  return GX_OK;
+  if (mesh->consistent)
+    GX_TRY(gx_mass_factor(mesh->consistent, &mesh->blocks.whole, mesh->space.particles->m, mesh->space.outcome));
+  return value ? solve_mass(mesh, field) : GX_OK;
 }
 
 enum gx_status gx_mesh_postpone(struct gx_mesh *mesh)
@@ -240,14 +228,14 @@ void gx_mesh_catch_up(struct gx_mesh *mesh)
   if (mesh->unprojected) gx_mesh_assemble(mesh, mesh->options.each_step ? mesh->space.particles->v : NULL, mesh->v);
 }
 
-void gx_mesh_project(struct gx_mesh *mesh, double *const *value, double *const *field)
+enum gx_status gx_mesh_project(struct gx_mesh *mesh, double *const *value, double *const *field)
 {
   struct scattering scattering = {.mesh = mesh, .value = value};
   gx_mesh_catch_up(mesh);
   gx_exchange_collect(&mesh->exchange, NULL, field, NULL);
   gx_blocks_each_apart(&mesh->blocks, scatter_block, &scattering);
   gx_exchange_deliver(&mesh->exchange);
-  solve_mass(mesh, field);
+  return solve_mass(mesh, field);
 }
 
 long gx_mesh_stress(struct gx_mesh *mesh, struct gx_block *block)
@@ -301,9 +289,8 @@ enum gx_status gx_mesh_accelerate(struct gx_mesh *mesh, double t, long (*load)(s
                          gx_particles_jacobian(particles, (size_t)scattering.tangled));
   gx_exchange_deliver(&mesh->exchange);
   if (assemble) gx_grid_fold(&mesh->grid, mesh->mass); /* lumped */
-  if (project) solve_mass(mesh, mesh->v);
-  solve_mass(mesh, mesh->a);
-  return GX_OK;
+  if (project) GX_TRY(solve_mass(mesh, mesh->v));
+  return solve_mass(mesh, mesh->a);
 }
 
 double gx_mesh_kinetic(const struct gx_space *space)

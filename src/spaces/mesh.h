@@ -41,7 +41,7 @@ enum gx_status gx_mesh_weigh_frozen(struct gx_mesh *mesh, double *const *u);
 /* Nodal mass of the current weights and, when value is not NULL, in the same pass field = M^-1 sum_p m_p value_p S_ip. */
 enum gx_status gx_mesh_assemble(struct gx_mesh *mesh, double *const *value, double *const *field);
 /* field = M^-1 sum_p m_p value_p S_ip with the mass assembled last. */
-void gx_mesh_project(struct gx_mesh *mesh, double *const *value, double *const *field);
+enum gx_status gx_mesh_project(struct gx_mesh *mesh, double *const *value, double *const *field);
 /* Assembles mass and, where it is projected each step, v from the particles: lumped, not now but in gx_mesh_accelerate, which does all
  * in one pass, or in gx_mesh_catch_up, which whoever needs them before calls. */
 enum gx_status gx_mesh_postpone(struct gx_mesh *mesh);

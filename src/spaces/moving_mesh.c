@@ -19,8 +19,7 @@ static enum gx_status create(const struct gx_space_kind *kind, struct gx_space *
   posed->problem->material->piola(&posed->options.moduli, particles->dim, particles->n, particles->F, particles->P);
   GX_TRY(gx_mesh_weigh(mesh, NULL, NULL));
   GX_TRY(gx_mesh_assemble(mesh, particles->u, mesh->u));
-  gx_mesh_project(mesh, particles->v, mesh->v);
-  return GX_OK;
+  return gx_mesh_project(mesh, particles->v, mesh->v);
 }
 
 static enum gx_status weights(struct gx_space *space)
@@ -32,8 +31,7 @@ static enum gx_status weights(struct gx_space *space)
 static enum gx_status project(struct gx_space *space)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
-  if (mesh->options.each_step) gx_mesh_project(mesh, space->particles->v, mesh->v);
-  return GX_OK;
+  return mesh->options.each_step ? gx_mesh_project(mesh, space->particles->v, mesh->v) : GX_OK;
 }
 
 GX_CLONES static void add_one(size_t n, double *F)
