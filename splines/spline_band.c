@@ -81,25 +81,64 @@ void gx_spline_band_solve(const struct gx_spline_band *band, const double *b, do
   GX_SPLINE_FOR_DEGREE(band->upper, backward(degree, band, x))
 }
 
-static void subtract(size_t count, double factor_of, const double *restrict other, double *restrict x)
+GX_SPLINE_CORE void forward_many(const int lower, const size_t count, const struct gx_spline_band *band, const double *b,
+                                 double *x)
 {
-  for (size_t s = 0; s < count; s++) x[s] -= factor_of * other[s];
+  const size_t stride = 2 * (size_t)band->degree + 1, rows = band->rows;
+  const double *row = band->entry + band->degree;
+  for (size_t i = 0; i < rows; i++, row += stride, b += count, x += count) {
+    const int reach = i < (size_t)lower ? (int)i : lower;
+    if (reach == lower)
+      for (size_t s = 0; s < count; s++) {
+        double sum = b[s] * row[0];
+        for (int d = lower; d >= 1; d--) sum -= row[-d] * x[(ptrdiff_t)s - d * (ptrdiff_t)count];
+        x[s] = sum;
+      }
+    else
+      for (size_t s = 0; s < count; s++) {
+        double sum = b[s] * row[0];
+        for (int d = reach; d >= 1; d--) sum -= row[-d] * x[(ptrdiff_t)s - d * (ptrdiff_t)count];
+        x[s] = sum;
+      }
+  }
+}
+
+GX_SPLINE_CORE void backward_many(const int upper, const size_t count, const struct gx_spline_band *band, double *x)
+{
+  const size_t stride = 2 * (size_t)band->degree + 1, rows = band->rows;
+  for (size_t i = rows; i-- > 0;) {
+    const double *row = band->entry + band->degree + i * stride;
+    double *at = x + i * count;
+    const int reach = i + (size_t)upper < rows ? upper : (int)(rows - 1 - i);
+    if (reach == upper)
+      for (size_t s = 0; s < count; s++) {
+        double sum = at[s];
+        for (int d = upper; d >= 1; d--) sum -= row[d] * at[s + (size_t)d * count];
+        at[s] = sum;
+      }
+    else
+      for (size_t s = 0; s < count; s++) {
+        double sum = at[s];
+        for (int d = reach; d >= 1; d--) sum -= row[d] * at[s + (size_t)d * count];
+        at[s] = sum;
+      }
+  }
+}
+
+GX_SPLINE_CLONES static void solve_lanes(const struct gx_spline_band *band, const double *b, double *x)
+{
+  const size_t lanes = GX_SPLINE_LANES;
+  if (!band->lower) forward_many(0, lanes, band, b, x);
+  GX_SPLINE_FOR_DEGREE(band->lower, forward_many(degree, lanes, band, b, x))
+  GX_SPLINE_FOR_DEGREE(band->upper, backward_many(degree, lanes, band, x))
 }
 
 void gx_spline_band_solve_many(const struct gx_spline_band *band, size_t count, const double *b, double *x)
 {
-  const size_t stride = 2 * (size_t)band->degree + 1, rows = band->rows;
-  const double *diagonal = band->entry + band->degree;
-  for (size_t i = 0; i < rows; i++) {
-    const double *row = diagonal + i * stride;
-    for (size_t s = 0; s < count; s++) x[i * count + s] = b[i * count + s] * row[0];
-    for (size_t d = i < (size_t)band->lower ? i : (size_t)band->lower; d >= 1; d--)
-      subtract(count, row[-(ptrdiff_t)d], x + (i - d) * count, x + i * count);
+  if (count == GX_SPLINE_LANES) {
+    solve_lanes(band, b, x);
+    return;
   }
-  for (size_t i = rows; i-- > 0;) {
-    const double *row = diagonal + i * stride;
-    size_t reach = rows - 1 - i;
-    for (size_t d = reach < (size_t)band->upper ? reach : (size_t)band->upper; d >= 1; d--)
-      subtract(count, row[d], x + (i + d) * count, x + i * count);
-  }
+  forward_many(band->lower, count, band, b, x);
+  backward_many(band->upper, count, band, x);
 }

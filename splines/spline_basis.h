@@ -9,6 +9,16 @@
 
 #define GX_SPLINE_CORE static inline __attribute__((always_inline))
 
+/* Compiled for several instruction sets; equal bits, since nothing contracts to FMA. */
+#if GX_HAVE_CLONES
+#define GX_SPLINE_CLONES __attribute__((target_clones("avx2", "default")))
+#else
+#define GX_SPLINE_CLONES
+#endif
+
+/* Splines that are solved and evaluated side by side at full speed: [rows][GX_SPLINE_LANES] stays in the first cache. */
+enum { GX_SPLINE_LANES = 16 };
+
 /* statement with `degree` a constant */
 #define GX_SPLINE_CASE(number, statement)                                                                                        \
   case number: {                                                                                                                 \

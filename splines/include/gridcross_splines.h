@@ -4,7 +4,8 @@
  *   interpolant  sites -> knots, collocation matrix, its factors; values -> coefficients, as often as wanted
  *   points       fixed points -> weights; coefficients -> values or derivatives there, as banded products
  *   circulant    the same for uniform periodic sites by FFT
- *   tensor       product grids in two and three dimensions
+ *   lines        interpolant, then points, along every line of one direction of a product grid
+ *   tensor       lines of every direction of a product grid
  *
  * Nothing is allocated after create. Sites, points and values have the caller's units; a derivative of order d is per unit of
  * the sites to the power d. Objects are changed by the functions that take them without const alone: several threads may share
@@ -16,13 +17,13 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { GX_SPLINE_MAX_DEGREE = 9, GX_SPLINE_MAX_DIM = 3, GX_SPLINE_MESSAGE_LENGTH = 192 };
+enum { GX_SPLINE_MAX_DEGREE = 9, GX_SPLINE_MESSAGE_LENGTH = 192 };
 
 /* Errors */
 
 enum gx_spline_status {
   GX_SPLINE_OK,
-  GX_SPLINE_DEGREE,             /* degree, derivative order or dimension out of range */
+  GX_SPLINE_DEGREE,             /* degree or derivative order out of range */
   GX_SPLINE_TOO_FEW,            /* fewer than degree + 1 sites */
   GX_SPLINE_NOT_INCREASING,     /* a site or knot not above the one before it, or not finite */
   GX_SPLINE_OUTSIDE,            /* a site beyond the ends, or sites longer than the period */
@@ -166,23 +167,30 @@ void gx_spline_circulant_solve(struct gx_spline_circulant *circulant, const doub
 /* Derivative of order < degree of the interpolant at the sites in one go. value, out: [sites], may be the same. */
 void gx_spline_circulant_derivative(struct gx_spline_circulant *circulant, int order, const double *value, double *out);
 
-/* Product grids: arrays are row-major, the last direction runs fastest. */
+/* Lines of one direction of a product grid: a row-major array [before][sites][after] has before * after of them. */
 
-struct gx_spline_tensor;
+struct gx_spline_lines;
 
-/* Borrows one interpolant and one set of points a direction. */
-enum gx_spline_status gx_spline_tensor_create(struct gx_spline_tensor **tensor, int dim,
-                                              const struct gx_spline_interpolant *const *interpolant,
-                                              const struct gx_spline_points *const *points, struct gx_spline_error *error);
-void gx_spline_tensor_free(struct gx_spline_tensor *tensor);
+/* Borrows both: solved and evaluated as they are when applied. One object serves one thread. */
+enum gx_spline_status gx_spline_lines_create(struct gx_spline_lines **lines, const struct gx_spline_interpolant *interpolant,
+                                             const struct gx_spline_points *points, struct gx_spline_error *error);
+void gx_spline_lines_free(struct gx_spline_lines *lines);
 
-/* Numbers of coefficients: the product of knots->functions. */
-size_t gx_spline_tensor_coefficients(const struct gx_spline_tensor *tensor);
+/* Every line's interpolant, its derivative of an order asked for at the points' creation. in: [before][sites][after]; out:
+ * [before][points->count][after], added to when `add`; they do not overlap. Each line has the bits it would have alone. */
+void gx_spline_lines_apply(const struct gx_spline_lines *lines, int order, size_t before, size_t after, const double *in,
+                           bool add, double *out);
 
-/* value: [sites 0][sites 1]...; coefficient: [functions 0][functions 1]... */
-void gx_spline_tensor_solve(struct gx_spline_tensor *tensor, const double *value, double *coefficient);
+/* Product grids: arrays are row-major, the last direction runs fastest. The product of splines through values on a grid, and its
+ * derivatives: one set of lines a direction, order[d] >= 0 that of the derivative along d at the points; -1: the values at the
+ * sites as they are, which a spline through them takes there. At least one is not. */
 
-/* out: [count 0][count 1]...; order: [dim], the derivative in each direction */
-void gx_spline_tensor_evaluate(struct gx_spline_tensor *tensor, const int *order, const double *coefficient, double *out);
+/* Numbers that an array of `work` takes. */
+size_t gx_spline_tensor_room(int dim, const struct gx_spline_lines *const *lines);
+
+/* in: [sites 0][sites 1]...; out: [count 0][count 1]..., with sites in place of count where the order is -1; added to when `add`.
+ * work: two arrays, used from two directions on; none of them overlap. */
+void gx_spline_tensor_apply(int dim, const struct gx_spline_lines *const *lines, const int *order, const double *in, bool add,
+                            double *out, double *const *work);
 
 #endif

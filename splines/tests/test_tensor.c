@@ -2,6 +2,8 @@
 /* Product grids: products of polynomials, and every mix of derivatives, in one to three dimensions. */
 #include <gridcross_splines.h>
 
+#include <string.h>
+
 #include "near.h"
 #include "sites.h"
 
@@ -24,7 +26,7 @@ static double function(enum gx_spline_ends ends, int order, double x)
 
 enum { ROOM = 24 };
 
-static const size_t SITES[] = {20, 16, 18}, POINTS[] = {5, 19, 4};
+static const size_t SITES[] = {20, 16, 18}, POINTS[] = {5, 19, 4}, most[] = {20, 19, 18};
 
 /* Product of the three one-dimensional functions at index i of a grid. */
 static double product(int dim, const enum gx_spline_ends *ends, const int *order, const size_t *shape, double (*x)[ROOM],
@@ -50,6 +52,7 @@ static void grid(int dim, const enum gx_spline_ends *ends, const int *degree, co
   uint64_t state = 17;
   struct gx_spline_interpolant *s[3] = {0};
   struct gx_spline_points *points[3] = {0};
+  struct gx_spline_lines *line[3] = {0};
   double site[3][ROOM], x[3][ROOM];
   for (int d = 0; d < dim; d++) {
     jittered_sites(SITES[d], 0, 1, 0.2, &state, site[d]);
@@ -58,29 +61,41 @@ static void grid(int dim, const enum gx_spline_ends *ends, const int *degree, co
     DONE(gx_spline_interpolant_set_sites(s[d], site[d], 0, 1, &error));
     DONE(gx_spline_points_create(&points[d], degree[d], 3, POINTS[d], &error));
     gx_spline_points_set(points[d], s[d]->knots, x[d]);
+    DONE(gx_spline_lines_create(&line[d], s[d], points[d], &error));
   }
-  struct gx_spline_tensor *tensor;
-  DONE(gx_spline_tensor_create(&tensor, dim, (const struct gx_spline_interpolant *const *)s,
-                               (const struct gx_spline_points *const *)points, &error));
-  const size_t sites = total(dim, SITES), count = total(dim, POINTS);
-  double *value = calloc(sites, sizeof *value), *out = calloc(count, sizeof *out);
-  double *coefficient = calloc(gx_spline_tensor_coefficients(tensor), sizeof *coefficient);
-  for (size_t i = 0; i < sites; i++) value[i] = product(dim, ends, NULL, SITES, site, i);
-  gx_spline_tensor_solve(tensor, value, coefficient);
-  for (int mix = 0; mix < 1 << dim; mix++) {
-    const int order[] = {mix & 1, mix >> 1 & 1, mix >> 2};
-    gx_spline_tensor_evaluate(tensor, order, coefficient, out);
-    for (size_t i = 0; i < count; i++)
-      NEAR(out[i], product(dim, ends, order, POINTS, x, i), tolerance[order[0] + order[1] + order[2]]);
-  }
-  gx_spline_tensor_free(tensor);
+  const struct gx_spline_lines *const lines[] = {line[0], line[1], line[2]};
+  double *value = calloc(total(dim, SITES), sizeof *value), *out = calloc(total(dim, most), sizeof *out);
+  double *work[] = {calloc(gx_spline_tensor_room(dim, lines), sizeof *out),
+                    calloc(gx_spline_tensor_room(dim, lines), sizeof *out)};
+  for (size_t i = 0; i < total(dim, SITES); i++) value[i] = product(dim, ends, NULL, SITES, site, i);
+  for (int mix = 0; mix < 1 << dim; mix++)
+    for (int sites = 0; sites < (1 << dim) - 1; sites++) { /* directions that stay at their sites */
+      int order[] = {mix & 1, mix >> 1 & 1, mix >> 2}, total_order = 0;
+      double place[3][ROOM];
+      size_t shape[3];
+      for (int d = 0; d < dim; d++) {
+        bool stays = sites >> d & 1;
+        shape[d] = stays ? SITES[d] : POINTS[d];
+        memcpy(place[d], stays ? site[d] : x[d], sizeof place[d]);
+        if (stays) order[d] = -1;
+        total_order += order[d] > 0;
+      }
+      const int derivative[] = {order[0] > 0, order[1] > 0, order[2] > 0};
+      for (int again = 0; again < 2; again++) {
+        gx_spline_tensor_apply(dim, lines, order, value, again, out, work);
+        for (size_t i = 0; i < total(dim, shape); i++)
+          NEAR(out[i], (1 + again) * product(dim, ends, derivative, shape, place, i), (1 + again) * tolerance[total_order]);
+      }
+    }
   for (int d = 0; d < dim; d++) {
+    gx_spline_lines_free(line[d]);
     gx_spline_interpolant_free(s[d]);
     gx_spline_points_free(points[d]);
   }
+  free(work[0]);
+  free(work[1]);
   free(value);
   free(out);
-  free(coefficient);
 }
 
 static void grids(void **unused)
@@ -94,24 +109,65 @@ static void grids(void **unused)
   }
 }
 
+/* Every line has the bits it would have alone, wherever it lies and however many there are. */
+static void lines_are_independent(void **unused)
+{
+  (void)unused;
+  enum { N = 21, COUNT = 13 };
+  static const size_t shapes[][2] = {{1, 1}, {1, 7}, {5, 1}, {40, 1}, {3, 5}, {2, 16}, {2, 37}, {1, 64}};
+  static const enum gx_spline_ends kinds[] = {GX_SPLINE_OPEN, GX_SPLINE_PERIODIC, GX_SPLINE_EVEN, GX_SPLINE_ODD};
+  for (int k = 0; k < 4; k++)
+    for (int degree = 1; degree <= GX_SPLINE_MAX_DEGREE; degree++) {
+      uint64_t state = 5;
+      double site[N], x[COUNT], value[N], coefficient[N + 2 * GX_SPLINE_MAX_DEGREE], alone[COUNT];
+      struct gx_spline_interpolant *s;
+      struct gx_spline_points *points;
+      struct gx_spline_lines *lines;
+      jittered_sites(N, 0, 1, 0.3, &state, site);
+      for (int i = 0; i < COUNT; i++) x[i] = random_number(&state);
+      DONE(gx_spline_interpolant_create(&s, kinds[k], degree, N, &error));
+      DONE(gx_spline_interpolant_set_sites(s, site, 0, 1, &error));
+      DONE(gx_spline_points_create(&points, degree, 3, COUNT, &error));
+      gx_spline_points_set(points, s->knots, x);
+      DONE(gx_spline_lines_create(&lines, s, points, &error));
+      for (size_t h = 0; h < sizeof shapes / sizeof *shapes; h++) {
+        const size_t before = shapes[h][0], after = shapes[h][1];
+        double *in = calloc(before * N * after, sizeof *in), *out = calloc(before * COUNT * after, sizeof *out);
+        for (size_t i = 0; i < before * N * after; i++) in[i] = random_number(&state) - 0.5;
+        gx_spline_lines_apply(lines, 1, before, after, in, false, out);
+        for (size_t line = 0; line < before * after; line++) {
+          const size_t block = line / after, at = line % after;
+          for (size_t i = 0; i < N; i++) value[i] = in[(block * N + i) * after + at];
+          gx_spline_interpolant_solve(s, value, coefficient);
+          gx_spline_points_evaluate(points, 1, coefficient, alone);
+          for (size_t i = 0; i < COUNT; i++) NEAR(out[(block * COUNT + i) * after + at], alone[i], 0);
+        }
+        free(in);
+        free(out);
+      }
+      gx_spline_lines_free(lines);
+      gx_spline_points_free(points);
+      gx_spline_interpolant_free(s);
+    }
+}
+
 static void refusals(void **unused)
 {
   (void)unused;
   struct gx_spline_interpolant *s;
   struct gx_spline_points *points;
-  struct gx_spline_tensor *tensor;
+  struct gx_spline_lines *lines;
   DONE(gx_spline_interpolant_create(&s, GX_SPLINE_OPEN, 3, 10, &error));
   DONE(gx_spline_points_create(&points, 5, 1, 4, &error));
-  assert_int_equal(gx_spline_tensor_create(&tensor, 1, (const struct gx_spline_interpolant *const[]){s},
-                                           (const struct gx_spline_points *const[]){points}, &error),
-                   GX_SPLINE_DEGREE);
-  assert_int_equal(gx_spline_tensor_create(&tensor, 4, NULL, NULL, &error), GX_SPLINE_DEGREE);
+  assert_int_equal(gx_spline_lines_create(&lines, s, points, &error), GX_SPLINE_DEGREE);
+  assert_null(lines);
   gx_spline_interpolant_free(s);
   gx_spline_points_free(points);
 }
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(grids), cmocka_unit_test(refusals)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(grids), cmocka_unit_test(lines_are_independent),
+                                     cmocka_unit_test(refusals)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
