@@ -1,43 +1,32 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the two spline spaces share: strong-form acceleration a = Div P / rho0 + b by splines through particle values, in 1-D.
+/* What the two spline spaces share: strong-form acceleration a = Div P / rho0 + b by splines through particle values.
  *
- *   frame reference: sites X, a = (1/rho0) dP/dX + b, F = 1 + du/dX
- *   frame current:   sites x, a = (F/rho0) dsigma/dx + b, dF/dt = (dv/dx) F; berzins2021 §8 omits the factor F (divergence papers)
+ *   frame reference: sites X, a_d = (1/rho0) sum_e dP_de/dX_e + b_d, F_de = delta_de + du_d/dX_e; on a complete lattice in 2-D and 3-D
+ *   frame current:   sites x, a = (F/rho0) dsigma/dx + b, dF/dt = (dv/dx) F, 1-D; berzins2021 §8 omits the factor F (divergence papers)
  *
- * Ends: closure papers splines u and v through the particles and a zero at either end, the stress through the particles (in the
- * reference frame also through both ends); closure symmetric mirrors u and v oddly and the stress evenly at the ends; periodic
- * problems need neither. */
+ * Ends: closure papers (1-D) splines u and v through the particles and a zero at either end, the stress through the particles (in
+ * the reference frame also through both ends); closure symmetric mirrors motion and stress at ends that hold the normal component,
+ * see spline_lattice.h; periodic problems need neither. */
 #ifndef GRIDCROSS_SPACES_COLLOCATION_H
 #define GRIDCROSS_SPACES_COLLOCATION_H
 
 #include <gridcross/space.h>
-#include <gridcross_splines.h>
+
+#include "spline_lattice.h"
 
 struct gx_collocation {
   struct gx_space space;
   struct gx_space_options options;
-  size_t n;    /* particles */
-  bool nodal;  /* by way of the grid's nodes */
-  bool closed; /* closure papers between fixed ends: zeros at the ends are sites of motion */
-  bool stress_at_ends;
-  size_t nodes;
-  /* splines through the motion (u or v) and the stress at their sites */
-  struct gx_spline_interpolant *motion, *stress, *node;
-  struct gx_spline_points *motion_points; /* particles and ends: derivative; nodal: nodes: value */
-  struct gx_spline_points *stress_points; /* particles: derivative; nodal: nodes: derivative */
-  struct gx_spline_points *node_points;   /* nodal: particles and ends: value, derivative */
-  double *x;                              /* [n + 2] sites with both ends around them */
-  double *ends_last;   /* [n + 2] the particles, then both ends: points where the motion's derivative is taken */
-  double *at_node;     /* [nodes] positions */
-  double *value;       /* [n + 2] values at sites */
-  double *coefficient; /* [most functions] */
-  double *nodal_value; /* [nodes] */
-  double *slope;       /* [n + 2] derivative of motion at particles, then ends */
-  double *F, *P;       /* [n + 2] at particles, then ends: reference frame */
-  double *a;           /* [n] acceleration of particles */
-  double *opened;      /* [n] y of GX_OPEN */
-  double *rate;        /* [n] */
-  double *block;
+  size_t n; /* particles */
+  struct gx_spline_lattice lattice;
+  bool strained;                 /* F is that of u, and the stress that of F: neither is integrated */
+  double *F[GX_MAX_TENSOR];      /* [n] the particles', or, stress at ends, [n + 2] with both ends behind them, owned */
+  double *P[GX_MAX_TENSOR];      /* likewise */
+  double *a[GX_MAX_DIM];         /* [n + 2] acceleration of particles, owned */
+  double *opened[GX_MAX_DIM];    /* [n] y of GX_OPEN, owned */
+  double *rate[GX_MAX_TENSOR];   /* [n] dF/dt where F or the stress is integrated, else NULL, owned */
+  double *rate_P[GX_MAX_TENSOR]; /* [n] dP/dt where the stress is, else NULL, owned */
+  void *block;
 };
 
 enum gx_status gx_collocation_create(const struct gx_space_kind *kind, struct gx_space **space,
