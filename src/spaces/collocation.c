@@ -82,19 +82,13 @@ static enum gx_status refuse(const struct gx_space_kind *kind, const struct gx_s
   if (dim > 1 && closed)
     return gx_status_set(
         outcome, GX_REFUSED, -1,
-        "closure papers is for one dimension: along a wall the motion is not the zero that it takes for a site; use "
+        "closure papers is for one dimension: it splines a zero at either end, and along a wall the motion is none; use "
         "closure symmetric");
-  if (dim > 1 && !particles->lattice[0])
+  if (!particles->lattice[0])
     return gx_status_set(outcome, GX_REFUSED, -1,
-                         "%s needs particles on all points of a lattice: its splines are products of those through lines of "
-                         "particles, and a line that lacks points has another spline than its neighbours",
+                         "%s needs a lattice of particles that fills the domain: its splines run from end to end along lines of "
+                         "particles, and know no surface of a body between",
                          kind->name);
-  for (int d = 0; d < dim && !options->periodic; d++)
-    if (options->held[d][0] != 1u << d || options->held[d][1] != 1u << d)
-      return gx_status_set(outcome, GX_REFUSED, -1,
-                           "%s mirrors motion and stress at ends that hold the normal component alone, or is periodic: use "
-                           "boundary fixed or periodic",
-                           kind->name);
   return GX_OK;
 }
 

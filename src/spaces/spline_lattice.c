@@ -149,7 +149,7 @@ enum gx_status gx_spline_lattice_create(struct gx_spline_lattice *lattice, bool 
   size_t stride = 1;
   for (int d = 0; d < lattice->dim; d++) {
     struct gx_spline_direction *direction = &lattice->direction[d];
-    direction->sites = lattice->dim == 1 ? lattice->n : (size_t)particles->lattice[d];
+    direction->sites = (size_t)particles->lattice[d];
     direction->nodes = (size_t)options->cells[d] + !options->periodic;
     direction->stride = stride;
     stride *= direction->sites;
