@@ -59,8 +59,8 @@ struct gx_result {
   long probe;                                /* index of the particle followed; -1: none */
   double reference[GX_QUANTITIES][GX_NORMS]; /* final state less that of dt / output.reference; NaN: not asked */
   struct gx_budget_values budget;            /* over the steps that output.budget names; NaN: not asked */
-  double seconds;                            /* processor time of the steps, less that of the measures between them */
-  double ns_per_particle_step;               /* NaN: no step was taken */
+  double seconds;              /* processor time of the steps, all threads, less that of the measures between them */
+  double ns_per_particle_step; /* NaN: no step was taken */
   struct gx_history history;
   struct gx_spectra spectra;
   struct gx_vibration vibration; /* of the driven mode; NaN: not asked for, or none */
@@ -81,9 +81,12 @@ struct gx_plan {
 struct gx_plan gx_case_plan(const struct gx_case *one);
 /* Runs one case; never aborts, once gsl_set_error_handler_off was called (gx_study_run does). */
 struct gx_result gx_case_run(const struct gx_case *one);
+/* The same by the threads of a team, which share out the particles of 2-D and 3-D cases; equal bits for any team. Results then
+ * count the processor time of all of them. */
+struct gx_result gx_case_run_by(const struct gx_case *one, struct gx_team *team);
 /* Runs a case that ended ok as often again without measures, which slow down the steps around them, and sets seconds and
  * ns_per_particle_step to the medians. Changes nothing else. */
-void gx_case_time(const struct gx_case *one, size_t repeats, struct gx_result *result);
+void gx_case_time(const struct gx_case *one, struct gx_team *team, size_t repeats, struct gx_result *result);
 void gx_case_free(struct gx_result *result);
 
 /* Told after every case, by one thread at a time. */
@@ -92,7 +95,8 @@ struct gx_progress {
   void (*done)(void *context, size_t done, size_t total);
 };
 
-/* Runs every case on that many threads; equal bits for any number. results: [count], filled. progress may be NULL. */
+/* Runs every case on that many threads, as many cases at once as there are; threads that are left over join the teams of 2-D and 3-D
+ * cases. Equal bits for any number. results: [count], filled. progress may be NULL. */
 void gx_study_run(const struct gx_study *study, size_t threads, const struct gx_progress *progress, struct gx_result *results);
 
 /* Columns case, every parameter, every result; timing columns last and only if asked. results: [count]. NULL when memory runs out. */

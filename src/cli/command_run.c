@@ -15,7 +15,7 @@
 static const struct gx_option option[] = {
     GX_COMMAND_SET,
     {'o', "output", "DIR", "where the study goes; default: the run file's name with .study"},
-    {'j', "jobs", "N", "cases run at once; default: the number of processors"},
+    {'j', "jobs", "N", "threads: so many cases at once, what is left over within 2-D and 3-D cases; default: the processors"},
     {0, "repeats", "N", "time each case in N runs more without measures, and report the median; changes no result"},
     {0, "csv", NULL, "print the whole table as CSV"},
     {0, "json", NULL, "print the whole table as JSON"},

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A team of POSIX threads. Those without work look for it a while before they sleep: parts of a step follow each other sooner than
- * a sleeper wakes. */
+/* A team of POSIX threads. Nobody waits for one that has taken no part: it may not even be running. Those without work look for it
+ * a while before they sleep: the tasks of a step follow each other sooner than a sleeper wakes. */
 #include "team.h"
 
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <time.h>
 
@@ -14,19 +15,18 @@ enum { PATIENCE = 4000 }; /* looks before sleep, tens of microseconds */
 struct helper {
   struct gx_team *team;
   size_t worker;
-  double seconds; /* of processor time in tasks */
+  _Atomic double seconds; /* of processor time in tasks */
   pthread_t thread;
 };
 
 struct gx_team {
   size_t helpers;
-  /* the task under way */
+  /* the task under way; nobody looks who has not taken a part of it */
   gx_team_task *task;
   void *context;
   size_t parts;
-  atomic_size_t next;   /* part that nobody has taken */
-  atomic_size_t busy;   /* helpers that have not finished */
-  atomic_size_t called; /* tasks so far */
+  _Atomic uint64_t open; /* number of the task, then, in the lower half, of its parts that nobody has taken */
+  atomic_size_t done;    /* parts */
   atomic_bool over;
   /* of those who sleep */
   pthread_mutex_t lock;
@@ -48,30 +48,44 @@ static void pause_a_moment(void)
 #endif
 }
 
+static bool is_open(struct gx_team *team)
+{
+  return (uint32_t)atomic_load(&team->open) > 0;
+}
+
+/* Whether it got one. Whoever has a part keeps the task from ending, and the next from beginning. */
+static bool take_part(struct gx_team *team, size_t *part)
+{
+  uint64_t open = atomic_load(&team->open);
+  while ((uint32_t)open > 0)
+    if (atomic_compare_exchange_weak(&team->open, &open, open - 1)) {
+      *part = team->parts - (uint32_t)open;
+      return true;
+    }
+  return false;
+}
+
 static void work(struct gx_team *team, size_t worker)
 {
   size_t part;
-  while ((part = atomic_fetch_add(&team->next, 1)) < team->parts) team->task(team->context, part, worker);
+  while (take_part(team, &part)) {
+    const size_t parts = team->parts;
+    team->task(team->context, part, worker);
+    if (atomic_fetch_add(&team->done, 1) + 1 < parts) continue;
+    pthread_mutex_lock(&team->lock);
+    pthread_cond_signal(&team->finished);
+    pthread_mutex_unlock(&team->lock);
+  }
 }
 
-/* Returns the number of tasks called, once there is one more than seen. */
-static size_t wait_for_call(struct gx_team *team, size_t seen)
+static void wait_for_work(struct gx_team *team)
 {
   for (int look = 0; look < PATIENCE; look++) {
-    if (atomic_load(&team->called) != seen) return atomic_load(&team->called);
+    if (is_open(team)) return;
     pause_a_moment();
   }
   pthread_mutex_lock(&team->lock);
-  while (atomic_load(&team->called) == seen) pthread_cond_wait(&team->call, &team->lock);
-  pthread_mutex_unlock(&team->lock);
-  return atomic_load(&team->called);
-}
-
-static void call(struct gx_team *team)
-{
-  pthread_mutex_lock(&team->lock);
-  atomic_fetch_add(&team->called, 1);
-  pthread_cond_broadcast(&team->call);
+  while (!is_open(team) && !atomic_load(&team->over)) pthread_cond_wait(&team->call, &team->lock);
   pthread_mutex_unlock(&team->lock);
 }
 
@@ -79,17 +93,12 @@ static void *help(void *argument)
 {
   struct helper *self = argument;
   struct gx_team *team = self->team;
-  for (size_t seen = 0;;) {
-    seen = wait_for_call(team, seen);
-    if (atomic_load(&team->over)) return NULL;
+  while (wait_for_work(team), !atomic_load(&team->over)) {
     double before = seconds_now();
     work(team, self->worker);
-    self->seconds += seconds_now() - before;
-    if (atomic_fetch_sub(&team->busy, 1) > 1) continue;
-    pthread_mutex_lock(&team->lock);
-    pthread_cond_signal(&team->finished);
-    pthread_mutex_unlock(&team->lock);
+    atomic_store(&self->seconds, atomic_load(&self->seconds) + (seconds_now() - before));
   }
+  return NULL;
 }
 
 struct gx_team *gx_team_create(size_t threads)
@@ -102,7 +111,8 @@ struct gx_team *gx_team_create(size_t threads)
   pthread_cond_init(&team->finished, NULL);
   for (; team->helpers < threads - 1; team->helpers++) {
     struct helper *helper = &team->helper[team->helpers];
-    *helper = (struct helper){.team = team, .worker = team->helpers + 1};
+    helper->team = team;
+    helper->worker = team->helpers + 1;
     if (pthread_create(&helper->thread, NULL, help, helper)) break;
   }
   if (team->helpers) return team;
@@ -113,8 +123,10 @@ struct gx_team *gx_team_create(size_t threads)
 void gx_team_free(struct gx_team *team)
 {
   if (!team) return;
+  pthread_mutex_lock(&team->lock);
   atomic_store(&team->over, true);
-  call(team);
+  pthread_cond_broadcast(&team->call);
+  pthread_mutex_unlock(&team->lock);
   for (size_t i = 0; i < team->helpers; i++) pthread_join(team->helper[i].thread, NULL);
   pthread_cond_destroy(&team->finished);
   pthread_cond_destroy(&team->call);
@@ -127,14 +139,14 @@ size_t gx_team_size(const struct gx_team *team)
   return team ? team->helpers + 1 : 1;
 }
 
-static void wait_for_helpers(struct gx_team *team)
+static void wait_for_parts(struct gx_team *team)
 {
   for (int look = 0; look < PATIENCE; look++) {
-    if (!atomic_load(&team->busy)) return;
+    if (atomic_load(&team->done) == team->parts) return;
     pause_a_moment();
   }
   pthread_mutex_lock(&team->lock);
-  while (atomic_load(&team->busy)) pthread_cond_wait(&team->finished, &team->lock);
+  while (atomic_load(&team->done) < team->parts) pthread_cond_wait(&team->finished, &team->lock);
   pthread_mutex_unlock(&team->lock);
 }
 
@@ -147,16 +159,18 @@ void gx_team_run(struct gx_team *team, size_t parts, gx_team_task *task, void *c
   team->task = task;
   team->context = context;
   team->parts = parts;
-  atomic_store(&team->next, 0);
-  atomic_store(&team->busy, team->helpers);
-  call(team);
+  atomic_store(&team->done, 0);
+  pthread_mutex_lock(&team->lock);
+  atomic_store(&team->open, ((atomic_load(&team->open) >> 32) + 1) << 32 | parts);
+  pthread_cond_broadcast(&team->call);
+  pthread_mutex_unlock(&team->lock);
   work(team, 0);
-  wait_for_helpers(team);
+  wait_for_parts(team);
 }
 
 double gx_team_seconds(const struct gx_team *team)
 {
   double seconds = 0;
-  for (size_t i = 0; team && i < team->helpers; i++) seconds += team->helper[i].seconds;
+  for (size_t i = 0; team && i < team->helpers; i++) seconds += atomic_load(&team->helper[i].seconds);
   return seconds;
 }

@@ -17,7 +17,7 @@ struct gx_team *gx_team_create(size_t threads);
 void gx_team_free(struct gx_team *team);
 /* Threads, the caller among them. */
 size_t gx_team_size(const struct gx_team *team);
-/* Returns when all parts are done. By one thread at a time, not from within a task. Allocates nothing. */
+/* Returns when all parts, below 2^32, are done. By one thread at a time, not from within a task. Allocates nothing. */
 void gx_team_run(struct gx_team *team, size_t parts, gx_team_task *task, void *context);
 /* Processor time that the threads besides the caller have spent in tasks, s. */
 double gx_team_seconds(const struct gx_team *team);

@@ -10,10 +10,12 @@
 
 #include <gsl/gsl_statistics_double.h>
 
+#include "../core/team.h"
 #include "simulation.h"
 #include "stability.h"
 
 struct run {
+  struct gx_team *team; /* borrowed */
   struct gx_simulation simulation;
   struct gx_stepper *stepper;
   struct gx_measure *measure;
@@ -35,12 +37,13 @@ struct run {
   double observing;       /* s of it for jumps, spectra, frequency and budgets */
 };
 
-/* Of this thread's own work: other cases and other programs do not count. */
-static double seconds_now(void)
+/* Of processor time that this thread and its team have worked: other cases, other programs and waiting for each other do not
+ * count. */
+static double seconds_now(const struct run *run)
 {
   struct timespec now;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec + gx_team_seconds(run->team);
 }
 
 static enum gx_measure_level level_of(const struct gx_case *one)
@@ -125,6 +128,7 @@ static enum gx_status prepare(struct run *run, const struct gx_case *one, double
   struct gx_simulation *simulation = &run->simulation;
   struct gx_outcome *outcome = &run->result->outcome;
   GX_TRY(gx_simulation_plan(simulation, one, outcome));
+  simulation->space_options.team = run->team;
   simulation->dt /= refine;
   simulation->steps *= refine;
   run->result->dt = simulation->dt;
@@ -184,11 +188,11 @@ static bool is_due(double every, double step)
 static void take_spectrum(struct run *run)
 {
   struct gx_spectra *spectra = &run->result->spectra;
-  double before = seconds_now();
+  double before = seconds_now(run);
   spectra->time[spectra->samples] = run->time;
   gx_spectrum_take(run->spectrum, run->measure, spectra->rms + spectra->samples * GX_QUANTITIES * spectra->bins);
   spectra->samples++;
-  run->observing += seconds_now() - before;
+  run->observing += seconds_now(run) - before;
 }
 
 /* The step that ends there, whose budget was taken. */
@@ -204,10 +208,10 @@ static enum gx_status take_budget(struct run *run, double step)
   run->budgeted = (struct gx_budget_values){.time = NAN};
   for (int i = 0; i < GX_BUDGET_ENTRIES; i++) run->budgeted.value[i] = NAN;
   if (!is_budgeted(run, step)) return GX_OK;
-  double before = seconds_now();
+  double before = seconds_now(run);
   if (gx_budget_take(run->budget, run->time, simulation->dt, &run->budgeted))
     return gx_status_set(&run->result->outcome, GX_FAILED, -1, "out of memory for the budget");
-  run->observing += seconds_now() - before;
+  run->observing += seconds_now(run) - before;
   return GX_OK;
 }
 
@@ -221,9 +225,9 @@ static enum gx_status take_sample(struct run *run, double step)
   bool reused = gx_stepper_starts_accelerated(run->stepper); /* by the next step: not a cost of measuring */
   bool timed = is_timed(run->samples++);
   if (reused) GX_TRY(gx_stepper_accelerate(run->stepper, run->time));
-  double reading = timed ? seconds_now() : 0, before = timed ? seconds_now() : 0;
+  double reading = timed ? seconds_now(run) : 0, before = timed ? seconds_now(run) : 0;
   GX_TRY(gx_measure_take(run->measure, run->stepper, run->time, simulation->dt));
-  if (timed) run->timed_seconds += seconds_now() - before - (before - reading);
+  if (timed) run->timed_seconds += seconds_now(run) - before - (before - reading);
   run->timed += timed;
   struct gx_history *history = &run->result->history;
   if (kept && history->probe) history->probe[history->samples] = *gx_measure_probe(run->measure);
@@ -236,9 +240,9 @@ static enum gx_status take_sample(struct run *run, double step)
 static void sample_frequency(struct run *run, double step)
 {
   if (!is_due(run->frequency_every, step)) return;
-  double before = seconds_now();
+  double before = seconds_now(run);
   gx_frequency_add(&run->frequency, gx_frequency_project(run->simulation.space));
-  run->observing += seconds_now() - before;
+  run->observing += seconds_now(run) - before;
 }
 
 static void advance_time(struct run *run, double step)
@@ -257,9 +261,9 @@ static void advance_time(struct run *run, double step)
 
 static void measure_jumps(struct run *run)
 {
-  double before = seconds_now();
+  double before = seconds_now(run);
   gx_measure_step(run->measure, run->simulation.dt);
-  run->observing += seconds_now() - before;
+  run->observing += seconds_now(run) - before;
 }
 
 /* Of the nodes by row sums, which bound what the full mass matrix gives but overstate waves of few cells: where it matters that
@@ -305,9 +309,9 @@ static enum gx_status take_steps(struct run *run)
 static enum gx_status march(struct run *run)
 {
   struct gx_result *result = run->result;
-  double before = seconds_now();
+  double before = seconds_now(run);
   enum gx_status status = take_steps(run);
-  result->seconds = seconds_now() - before - measuring_seconds(run);
+  result->seconds = seconds_now(run) - before - measuring_seconds(run);
   if (result->steps > 0)
     result->ns_per_particle_step = 1e9 * result->seconds / (result->steps * (double)run->simulation.particles->n);
   return status;
@@ -345,12 +349,13 @@ static bool is_worth_an_estimate(const struct gx_simulation *simulation)
  * just given to the nodes, which is not projected: a step has trace 2 - dt^2 K and determinant 1 - dt^2 K (1 - lambda), and is
  * stable for dt^2 K (2 - lambda) < 4. Taken here: lambda = 0, which is safe, and K as if nodal velocities were
  * carried; with linear elements, whose highest frequency has lambda = 1/3, that is 9 % too small. */
-static double estimate_stable_dt(const struct gx_case *one)
+static double estimate_stable_dt(const struct gx_case *one, struct gx_team *team)
 {
   struct gx_simulation simulation;
   struct gx_outcome outcome;
   double dt = NAN;
   bool planned = gx_simulation_plan(&simulation, one, &outcome) == GX_OK;
+  simulation.space_options.team = team;
   if (planned && simulation.problem->material->piola && is_worth_an_estimate(&simulation)) { /* without stress nothing vibrates */
     bool projected = simulation.space_options.each_step && !simulation.clock->tableau;
     if (projected) simulation.space_options.each_step = false;
@@ -380,7 +385,7 @@ static void compare_with_reference(const struct run *run, const struct gx_case *
 {
   struct gx_case bare = without_measures(one);
   struct gx_result result = {.outcome = {.status = GX_OK, .particle = -1}};
-  struct run fine = {.result = &result};
+  struct run fine = {.team = run->team, .result = &result};
   if (prepare(&fine, &bare, refine) == GX_OK && march(&fine) == GX_OK)
     gx_measure_difference(run->measure, fine.measure, run->result->reference);
   else
@@ -391,6 +396,11 @@ static void compare_with_reference(const struct run *run, const struct gx_case *
 
 struct gx_result gx_case_run(const struct gx_case *one)
 {
+  return gx_case_run_by(one, NULL);
+}
+
+struct gx_result gx_case_run_by(const struct gx_case *one, struct gx_team *team)
+{
   struct gx_result result = {.outcome = {.status = GX_OK, .particle = -1},
                              .dt = NAN,
                              .stable_dt = NAN,
@@ -400,7 +410,7 @@ struct gx_result gx_case_run(const struct gx_case *one)
   for (int q = 0; q < GX_QUANTITIES; q++)
     for (int k = 0; k < GX_NORMS; k++) result.reference[q][k] = NAN;
   for (int i = 0; i < GX_BUDGET_ENTRIES; i++) result.budget.value[i] = NAN;
-  struct run run = {.result = &result};
+  struct run run = {.team = team, .result = &result};
   if (prepare(&run, one, 1) == GX_OK) {
     double refine = (double)one->value[GX_OUTPUT_REFERENCE].integer;
     bool done = march(&run) == GX_OK;
@@ -410,13 +420,13 @@ struct gx_result gx_case_run(const struct gx_case *one)
     result.kh = 2 * M_PI * run.simulation.problem_options.mode / run.simulation.space_options.cells[0];
     result.vibration = gx_frequency_fit(&run.frequency, 1e-9 * fabs(run.simulation.problem_options.amplitude));
     if (done && refine > 0) compare_with_reference(&run, one, refine);
-    result.stable_dt = estimate_stable_dt(one);
+    result.stable_dt = estimate_stable_dt(one, team);
   }
   finish(&run);
   return result;
 }
 
-void gx_case_time(const struct gx_case *one, size_t repeats, struct gx_result *result)
+void gx_case_time(const struct gx_case *one, struct gx_team *team, size_t repeats, struct gx_result *result)
 {
   double *seconds = result->outcome.status == GX_OK && repeats ? calloc(2 * repeats, sizeof *seconds) : NULL;
   if (!seconds) return;
@@ -425,7 +435,7 @@ void gx_case_time(const struct gx_case *one, size_t repeats, struct gx_result *r
   size_t done = 0;
   for (; done < repeats; done++) {
     struct gx_result again = {.outcome = {.status = GX_OK, .particle = -1}};
-    struct run run = {.result = &again};
+    struct run run = {.team = team, .result = &again};
     bool failed = prepare(&run, &bare, 1) != GX_OK || march(&run) != GX_OK;
     finish(&run);
     if (failed) break; /* out of memory: the case itself ran */
@@ -456,7 +466,7 @@ struct gx_plan gx_case_plan(const struct gx_case *one)
   struct gx_simulation simulation;
   if (gx_simulation_plan(&simulation, one, &plan.outcome) == GX_OK && gx_simulation_build(&simulation, &plan.outcome) == GX_OK) {
     plan.particles = (double)simulation.particles->n;
-    plan.stable_dt = estimate_stable_dt(one);
+    plan.stable_dt = estimate_stable_dt(one, NULL);
     if (!simulation.space->through_cells)
       plan.growth = gx_stability_growth(simulation.space); /* else it sees the flow's own stretching */
   }
