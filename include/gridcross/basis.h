@@ -16,6 +16,9 @@ struct gx_basis {
   bool deforms;       /* those lengths follow F */
   /* Sets degree-dependent counts (support, functions, stored, edge) of an axis whose cells, periodic, h, degree are set. */
   void (*layout)(struct gx_axis *axis);
+  /* Where function k sits, in cell widths from the low end: sum_k S_k(x) site(k) = x / h. Nodes for hats and their averages; centres
+   * or Greville abscissae for B-splines. On a periodic axis sites go on past the end, as images do. */
+  double (*site)(const struct gx_axis *axis, int k);
   /* Weights at n points. x: [n] coordinates inside the domain (periodic: any); half: [n] half lengths, or NULL.
    * first: [n] lowest function met; S, D: [support][n] values and derivatives (1/m) of functions first + k.
    * Returns the index of a point whose domain outgrew its cell, or -1. */

@@ -21,6 +21,7 @@ struct gx_space_options {
   int degree;
   bool consistent;      /* mass matrix: consistent, else lumped (row sums) */
   bool pic;             /* particle velocity from the grid, else by increments (FLIP) */
+  bool apic;            /* with pic: and its affine part about each particle */
   double flip;          /* blend: flip * FLIP + (1 - flip) * PIC */
   bool particle_motion; /* method.position: particle */
   bool each_step;       /* method.projection: nodal velocity re-projected from particles */
@@ -84,13 +85,17 @@ struct gx_space_kind {
   void (*advance)(struct gx_space *space, double kick, double strain, double drift);
   /* GX_WEIGHTS_FROZEN ... GX_CLOSE; span: coefficient * dt. */
   enum gx_status (*twofold)(struct gx_space *space, enum gx_primitive primitive, double span);
-  /* Runge–Kutta view: the state, and its time derivatives after W, P, A. rate: [state.count] arrays. */
+  /* Runge–Kutta view: the state, and its time derivatives after W, P, A. What APIC keeps of the last kick is not in it, having no
+   * rate; a restart would need that too. rate: [state.count] arrays. */
   void (*state)(struct gx_space *space, struct gx_state *state);
   void (*rates)(struct gx_space *space, double *const *rate);
   /* Kinetic energy of the carrier of velocity: nodes with their row-sum mass, J. */
   double (*kinetic)(const struct gx_space *space);
   /* Potential energy, J; NULL: strain energy sum V0 W(F) where the material has one. */
   double (*potential)(const struct gx_space *space);
+  /* spin += angular momentum of the affine part of velocities that are brought `ahead` seconds by the nodal acceleration,
+   * kg m^2/s: what gx_particles does not show. spin: [GX_MAX_DIM]; NULL: there is none. */
+  void (*spin)(struct gx_space *space, double ahead, double *spin);
   /* Brings particles up to date with a state that lives on nodes; NULL: nothing to do. */
   void (*settle)(struct gx_space *space);
   /* Acceleration of the particles after accelerate. a: [dim][n], m/s^2. */

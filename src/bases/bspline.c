@@ -42,6 +42,14 @@ static double knot(int degree, int cells, int i)
   return k < 0 ? 0 : k > cells ? cells : k;
 }
 
+/* The mean of the knots inside its support (Greville): the centre where knots are uniform. */
+static double site(const struct gx_axis *axis, int k)
+{
+  double sum = 0;
+  for (int i = k + 1; i <= k + axis->degree; i++) sum += axis->periodic ? i - axis->degree : knot(axis->degree, axis->cells, i);
+  return sum / axis->degree;
+}
+
 static void open_cell(int degree, int cells, int cell, double s, double *S, double *D)
 {
   S[0] = 1;
@@ -137,5 +145,6 @@ const struct gx_basis gx_bspline = {
     .source = "steffen2010 eqs 30-34; de Boor 1978",
     .has_degree = true,
     .layout = layout,
+    .site = site,
     .evaluate = evaluate,
 };

@@ -20,5 +20,6 @@ const struct gx_basis gx_cpgimp = {
     .has_domain = true,
     .deforms = true,
     .layout = gx_gimp_layout,
+    .site = gx_gimp_site,
     .evaluate = evaluate,
 };

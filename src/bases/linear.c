@@ -13,6 +13,12 @@ static void layout(struct gx_axis *axis)
   axis->edge = 1;
 }
 
+static double site(const struct gx_axis *axis, int k)
+{
+  (void)axis;
+  return k;
+}
+
 GX_CLONES static long evaluate(const struct gx_axis *axis, size_t n, const double *restrict x, const double *half,
                                int *restrict first, double *restrict S, double *restrict D)
 {
@@ -37,5 +43,6 @@ const struct gx_basis gx_linear = {
     .help = "piecewise linear hat functions; the gradient jumps at cell edges",
     .source = "steffen2010 eqs 28, 29",
     .layout = layout,
+    .site = site,
     .evaluate = evaluate,
 };

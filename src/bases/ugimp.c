@@ -17,5 +17,6 @@ const struct gx_basis gx_ugimp = {
     .source = "Bardenhagen & Kober 2004; berzins2022",
     .has_domain = true,
     .layout = gx_gimp_layout,
+    .site = gx_gimp_site,
     .evaluate = evaluate,
 };

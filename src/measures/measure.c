@@ -284,11 +284,11 @@ static void swap(double **a, double **b)
   *b = kept;
 }
 
-/* Velocity and acceleration of the particles at the end of step, and the stress that belongs to their F. */
-static enum gx_status synchronise(struct gx_measure *measure, struct gx_stepper *stepper, double t, double dt)
+/* Velocity and acceleration of the particles at the end of step, and the stress that belongs to their F. ahead: s that velocities are
+ * behind. */
+static enum gx_status synchronise(struct gx_measure *measure, struct gx_stepper *stepper, double t, double ahead)
 {
   struct gx_space *space = measure->space;
-  double ahead = measure->clock->staggered ? 0.5 * dt : 0;
   GX_TRY(gx_stepper_accelerate(stepper, t));
   if (space->kind->settle) space->kind->settle(space);
   for (int d = 0; d < measure->dim; d++) {
@@ -386,10 +386,12 @@ static void keep_extremes(struct gx_measure *measure, const struct gx_sample *sa
 }
 
 /* Of the sample and, largest so far, relative to the largest sizes so far. */
-static void momenta(struct gx_measure *measure, struct gx_sample *sample)
+static void momenta(struct gx_measure *measure, double ahead, struct gx_sample *sample)
 {
   double *const scratch[] = {measure->scratch, measure->P.component[0]};
-  struct gx_momentum now = gx_momentum_of(measure->space->particles, measure->v.component, scratch);
+  struct gx_space *space = measure->space;
+  struct gx_momentum now = gx_momentum_of(space->particles, measure->v.component, scratch);
+  if (space->kind->spin) space->kind->spin(space, ahead, now.angular);
   memcpy(sample->momentum, now.linear, sizeof sample->momentum);
   memcpy(sample->angular, now.angular, sizeof sample->angular);
   if (!measure->started) {
@@ -428,10 +430,11 @@ enum gx_status gx_measure_take(struct gx_measure *measure, struct gx_stepper *st
                              .angular = {NAN, NAN, NAN},
                              .jump = {NAN, NAN, NAN},
                              .jump_step = NAN};
-  GX_TRY(synchronise(measure, stepper, t, dt));
+  double ahead = measure->clock->staggered ? 0.5 * dt : 0;
+  GX_TRY(synchronise(measure, stepper, t, ahead));
   errors(measure, t, sample.error);
   if (measure->level == GX_MEASURE_ALL) energies(measure, dt, &sample);
-  if (measure->level == GX_MEASURE_ALL && !measure->space->posed->problem->space) momenta(measure, &sample);
+  if (measure->level == GX_MEASURE_ALL && !measure->space->posed->problem->space) momenta(measure, ahead, &sample);
   if (measure->jump) jumps(measure, &sample);
   if (measure->followed >= 0)
     for (int d = 0; d < measure->dim; d++) cell[d] = measure->cell.component[d][measure->followed];

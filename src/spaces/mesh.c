@@ -68,9 +68,10 @@ enum gx_status gx_mesh_create(struct gx_mesh **out, size_t size, const struct gx
   lay_out_grid(mesh);
   double *arrays = gx_aligned_zeros(place_arrays(mesh, NULL) * sizeof(double), &mesh->block);
   if (options->consistent) mesh->consistent = gx_mass_create(&mesh->grid, options->basis, particles);
-  if (gx_blocks_init(&mesh->blocks, &mesh->grid, options->basis, particles->n, particles->X, options->consistent,
-                     options->team) ||
-      gx_exchange_init(&mesh->exchange, &mesh->grid, options->team) || !arrays || (options->consistent && !mesh->consistent)) {
+  const bool whole = options->consistent || options->apic;
+  if (gx_blocks_init(&mesh->blocks, &mesh->grid, options->basis, particles->n, particles->X, whole, options->team) ||
+      gx_exchange_init(&mesh->exchange, &mesh->grid, options->team) || !arrays || (options->consistent && !mesh->consistent) ||
+      (options->apic && !(mesh->affine = gx_affine_create(mesh)))) {
     gx_mesh_free(&mesh->space);
     return gx_status_set(outcome, GX_FAILED, -1, "out of memory");
   }
@@ -84,6 +85,7 @@ void gx_mesh_free(struct gx_space *space)
   struct gx_mesh *mesh = (struct gx_mesh *)space;
   if (!mesh) return;
   gx_mass_free(mesh->consistent);
+  gx_affine_free(mesh->affine);
   gx_blocks_free(&mesh->blocks);
   gx_exchange_free(&mesh->exchange);
   free(mesh->block);
@@ -127,7 +129,9 @@ static enum gx_status weigh(struct gx_mesh *mesh, double *const *u, double *cons
     mesh->blocks.half[d] = domains(mesh, d, F, frozen);
   }
   struct gx_blocks_stray stray = gx_blocks_place(&mesh->blocks, u, low, high);
-  return stray.d < 0 ? GX_OK : report_stray(mesh, &stray);
+  if (stray.d >= 0) return report_stray(mesh, &stray);
+  if (mesh->affine) gx_affine_weigh(mesh, mesh->blocks.x);
+  return GX_OK;
 }
 
 enum gx_status gx_mesh_weigh(struct gx_mesh *mesh, double *const *u, double *const *F)
@@ -156,6 +160,12 @@ static enum gx_status solve_mass(struct gx_mesh *mesh, double *const *field)
     gx_grid_spread(&mesh->grid, field[d]);
   }
   return GX_OK;
+}
+
+/* Velocities of the particles come with their affine part. */
+static void add_affine(struct gx_mesh *mesh, double *const *value, double *const *field)
+{
+  if (mesh->affine && value == mesh->space.particles->v) gx_affine_scatter(mesh, field);
 }
 
 /* A pass that scatters what the particles carry: value, and with `load` forces. */
@@ -213,7 +223,9 @@ enum gx_status gx_mesh_assemble(struct gx_mesh *mesh, double *const *value, doub
   gx_grid_fold(&mesh->grid, mesh->mass);
   if (mesh->consistent)
     GX_TRY(gx_mass_factor(mesh->consistent, &mesh->blocks.whole, mesh->space.particles->m, mesh->space.outcome));
-  return value ? solve_mass(mesh, field) : GX_OK;
+  if (!value) return GX_OK;
+  add_affine(mesh, value, field);
+  return solve_mass(mesh, field);
 }
 
 enum gx_status gx_mesh_postpone(struct gx_mesh *mesh)
@@ -235,6 +247,7 @@ enum gx_status gx_mesh_project(struct gx_mesh *mesh, double *const *value, doubl
   gx_exchange_collect(&mesh->exchange, NULL, field, NULL);
   gx_blocks_each_apart(&mesh->blocks, scatter_block, &scattering);
   gx_exchange_deliver(&mesh->exchange);
+  add_affine(mesh, value, field);
   return solve_mass(mesh, field);
 }
 
@@ -289,6 +302,7 @@ enum gx_status gx_mesh_accelerate(struct gx_mesh *mesh, double t, long (*load)(s
                          gx_particles_jacobian(particles, (size_t)scattering.tangled));
   gx_exchange_deliver(&mesh->exchange);
   if (assemble) gx_grid_fold(&mesh->grid, mesh->mass); /* lumped */
+  add_affine(mesh, scattering.value, mesh->v);
   if (project) GX_TRY(solve_mass(mesh, mesh->v));
   return solve_mass(mesh, mesh->a);
 }

@@ -5,6 +5,7 @@
 
 #include <gridcross/space.h>
 
+#include "affine.h"
 #include "blocks.h"
 #include "exchange.h"
 #include "mass.h"
@@ -16,6 +17,7 @@ struct gx_mesh {
   struct gx_blocks blocks; /* of particles, with their weights and scratch */
   struct gx_exchange exchange;
   struct gx_mass *consistent; /* NULL: lumped */
+  struct gx_affine *affine;   /* NULL: particles keep no affine part of velocity */
   /* nodal fields, [grid.stored]; mass is zero at periodic images, the others are copied there */
   double *mass;                     /* row sums, kg */
   double *v[GX_MAX_DIM];            /* m/s */
@@ -38,7 +40,8 @@ void gx_mesh_free(struct gx_space *space);
 enum gx_status gx_mesh_weigh(struct gx_mesh *mesh, double *const *u, double *const *F);
 /* The same with particle domains as they were. */
 enum gx_status gx_mesh_weigh_frozen(struct gx_mesh *mesh, double *const *u);
-/* Nodal mass of the current weights and, when value is not NULL, in the same pass field = M^-1 sum_p m_p value_p S_ip. */
+/* Nodal mass of the current weights and, when value is not NULL, in the same pass field = M^-1 sum_p m_p value_p S_ip. Velocities of
+ * the particles, particles->v, come with their affine part. */
 enum gx_status gx_mesh_assemble(struct gx_mesh *mesh, double *const *value, double *const *field);
 /* field = M^-1 sum_p m_p value_p S_ip with the mass assembled last. */
 enum gx_status gx_mesh_project(struct gx_mesh *mesh, double *const *value, double *const *field);
@@ -53,7 +56,8 @@ enum gx_status gx_mesh_accelerate(struct gx_mesh *mesh, double t, long (*load)(s
 long gx_mesh_stress(struct gx_mesh *mesh, struct gx_block *block);
 /* A load: T = -V0 P of the P that the particles have. */
 long gx_mesh_load_nominal(struct gx_mesh *mesh, struct gx_block *block);
-/* v_p <- flip (v_p + kick S a) + (1 - flip) S v, from a and v of the block; the latter is not looked at where flip is 1. */
+/* v_p <- flip (v_p + kick S a) + (1 - flip) S v, from a and v of the block; the latter is not looked at where flip is 1. Their affine
+ * part is gx_affine_gather's, once the nodes are kicked. */
 void gx_mesh_kick_block(const struct gx_mesh *mesh, const struct gx_block *block, double kick);
 /* Nodal fields at all particles, and their gradients. */
 void gx_mesh_gather(struct gx_mesh *mesh, double *const *field, double *const *value);

@@ -19,7 +19,9 @@ static enum gx_status create(const struct gx_space_kind *kind, struct gx_space *
   posed->problem->material->piola(&posed->options.moduli, particles->dim, particles->n, particles->F, particles->P);
   GX_TRY(gx_mesh_weigh(mesh, NULL, NULL));
   GX_TRY(gx_mesh_assemble(mesh, particles->u, mesh->u));
-  return gx_mesh_project(mesh, particles->v, mesh->v);
+  GX_TRY(gx_mesh_project(mesh, particles->v, mesh->v));
+  if (mesh->affine) gx_affine_gather(mesh);
+  return GX_OK;
 }
 
 static enum gx_status weights(struct gx_space *space)
@@ -139,6 +141,7 @@ static void advance(struct gx_space *space, double kick, double span, double dri
   const int dim = mesh->grid.dim;
   if (kick != 0)
     for (int d = 0; d < dim; d++) gx_vector_add(mesh->grid.stored, kick, mesh->a[d], mesh->v[d]);
+  if (kick != 0 && mesh->affine) gx_affine_gather(mesh); /* before the nodes move */
   if (span != 0) strain(mesh, span);
   if (drift != 0)
     for (int d = 0; d < dim; d++) gx_vector_add(mesh->grid.stored, drift, mesh->v[d], mesh->u[d]);
@@ -253,6 +256,7 @@ const struct gx_space_kind gx_moving_mesh = {
     .rates = rates,
     .kinetic = gx_mesh_kinetic,
     .settle = settle,
+    .spin = gx_affine_spin,
     .particle_acceleration = gx_mesh_particle_acceleration,
     .field = gx_mesh_field,
 };

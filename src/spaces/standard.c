@@ -29,7 +29,9 @@ static enum gx_status create(const struct gx_space_kind *kind, struct gx_space *
   (*space)->through_cells = true;
   posed->problem->material->piola(&posed->options.moduli, particles->dim, particles->n, particles->F, particles->P);
   GX_TRY(weights(*space));
-  return gx_mesh_assemble(mesh, particles->v, mesh->v);
+  GX_TRY(gx_mesh_assemble(mesh, particles->v, mesh->v));
+  if (mesh->affine) gx_affine_gather(mesh);
+  return GX_OK;
 }
 
 /* T = -V0 P F^T = -V sigma */
@@ -146,6 +148,7 @@ static void advance(struct gx_space *space, double kick, double strain, double d
   gx_mesh_catch_up(mesh);
   if (kick != 0)
     for (int d = 0; d < mesh->grid.dim; d++) gx_vector_add(mesh->grid.stored, kick, mesh->a[d], mesh->v[d]);
+  if (kick != 0 && mesh->affine) gx_affine_gather(mesh);
   gx_exchange_lend(&mesh->exchange, mesh->v, kick != 0 ? mesh->a : NULL);
   gx_blocks_each(&mesh->blocks, advance_block, &advance);
 }
@@ -298,6 +301,7 @@ const struct gx_space_kind gx_standard = {
     .state = state,
     .rates = rates,
     .kinetic = gx_mesh_kinetic,
+    .spin = gx_affine_spin,
     .particle_acceleration = gx_mesh_particle_acceleration,
     .field = gx_mesh_field,
 };

@@ -82,8 +82,9 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
          .choice = gx_rules_transfer_choice,
          .standard = "flip",
          .applies = gx_rules_particles_move,
-         .help = "particle velocity from the grid: by increments, or interpolated; not in moving-mesh with projection once",
-         .why = "as in the papers: pic damps"},
+         .help = "particle velocity from the grid: by increments, interpolated, or interpolated with its affine part; not in "
+                 "moving-mesh with projection once",
+         .why = "as in the papers: pic damps, apic less"},
     [GX_METHOD_FLIP] = {.path = "method.flip",
                         .type = GX_REAL,
                         .unit = "",

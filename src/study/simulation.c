@@ -95,7 +95,8 @@ static void read_method(struct gx_simulation *simulation, const struct gx_case *
   options->basis = basis->type == GX_TEXT ? gx_basis_find(basis->text) : NULL;
   options->degree = (int)integer(one, GX_METHOD_DEGREE, 1);
   options->consistent = is(one, GX_METHOD_MASS, "consistent");
-  options->pic = is(one, GX_METHOD_TRANSFER, "pic");
+  options->apic = is(one, GX_METHOD_TRANSFER, "apic");
+  options->pic = options->apic || is(one, GX_METHOD_TRANSFER, "pic");
   options->flip = real(one, GX_METHOD_FLIP, 1);
   options->particle_motion = is(one, GX_METHOD_POSITION, "particle");
   options->each_step = is(one, GX_METHOD_PROJECTION, "each-step");
@@ -146,6 +147,7 @@ static enum gx_status refuse(const struct gx_simulation *simulation, struct gx_o
 {
   const struct gx_problem *problem = simulation->problem;
   const struct gx_space_options *options = &simulation->space_options;
+  const char *grid_velocity = options->apic ? "APIC" : "PIC";
   if (simulation->jumps) GX_TRY(refuse_jumps(simulation, outcome));
   if (problem->space) return GX_OK;
   if (problem->check) GX_TRY(problem->check(&simulation->problem_options, outcome));
@@ -161,13 +163,21 @@ static enum gx_status refuse(const struct gx_simulation *simulation, struct gx_o
                          options->basis->name);
   if (simulation->clock->tableau && (options->pic || options->flip < 1))
     return gx_status_set(outcome, GX_REFUSED, -1,
-                         "%s advances rates, and PIC is not one: use transfer flip with flip 1, or a clock of kicks",
-                         simulation->clock->name);
+                         "%s advances rates, and %s is not one: use transfer flip with flip 1, or a clock of kicks",
+                         simulation->clock->name, grid_velocity);
   if (simulation->kind->fixed_grid && mixes_weights(simulation->clock) && (options->pic || options->flip < 1))
     return gx_status_set(outcome, GX_REFUSED, -1,
-                         "PIC with %s would not keep momentum: its nodal velocity and its last weights are of two positions; use "
+                         "%s with %s would not keep momentum: its nodal velocity and its last weights are of two positions; use "
                          "transfer flip with flip 1",
-                         simulation->clock->name);
+                         grid_velocity, simulation->clock->name);
+  if (options->apic && options->consistent)
+    return gx_status_set(
+        outcome, GX_REFUSED, -1,
+        "APIC with consistent mass grows at every transfer: the affine part puts back what row sums smooth away, "
+        "and this matrix does not; use mass lumped, or transfer flip");
+  if (options->apic && !options->each_step)
+    return gx_status_set(outcome, GX_REFUSED, -1,
+                         "APIC with projection once: the grid never takes velocity from particles; use projection each-step");
   return GX_OK;
 }
 

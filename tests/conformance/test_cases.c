@@ -261,6 +261,10 @@ static void failures_are_results(void **state)
       {GX_REFUSED, false, {"method.basis=cpgimp", "method.space=moving-mesh"}},
       {GX_REFUSED, false, {"method.clock=rk4", "method.transfer=pic"}},
       {GX_REFUSED, false, {"method.clock=rk4", "method.flip=0.9"}},
+      {GX_REFUSED, false, {"method.clock=rk4", "method.transfer=apic"}},
+      {GX_REFUSED, false, {"method.clock=stormer-verlet", "method.transfer=apic"}},
+      {GX_REFUSED, false, {"method.mass=consistent", "method.transfer=apic"}},
+      {GX_REFUSED, false, {"method.projection=once", "method.transfer=apic"}},
       {GX_REFUSED, false, {"time.dt=1e-300"}},
   };
   for (size_t i = 0; i < sizeof failing / sizeof *failing; i++) {

@@ -69,7 +69,7 @@ static bool mixes_weights(const struct gx_clock *clock)
 
 static void each_combination(void (*check)(const struct combination *combination))
 {
-  static const char *const transfers[][2] = {{"flip", "1"}, {"flip", "0.9"}, {"pic", "1"}};
+  static const char *const transfers[][2] = {{"flip", "1"}, {"flip", "0.9"}, {"pic", "1"}, {"apic", "1"}};
   struct combination c;
   int ran = 0;
   for (int s = 0; (c.kind = gx_space_family[s]); s++) {
@@ -78,7 +78,7 @@ static void each_combination(void (*check)(const struct combination *combination
     for (int b = 0; (c.basis = gx_basis_family[b]) && !(collocation && b); b++)
       for (int k = 0; (c.clock = gx_clock_family[k]); k++)
         for (int mass = 0; mass < (collocation ? 1 : 2); mass++)
-          for (int t = 0; t < (collocation ? 1 : 3); t++)
+          for (int t = 0; t < (collocation ? 1 : 4); t++)
             for (c.dim = 1; c.dim <= GX_MAX_DIM; c.dim++)
               for (c.degree = collocation || c.basis->has_degree ? 2 : 1; c.degree < (collocation || c.basis->has_degree ? 4 : 2);
                    c.degree++) {
@@ -89,7 +89,7 @@ static void each_combination(void (*check)(const struct combination *combination
                 struct gx_case one = box(&c, "uniform");
                 struct gx_plan plan = gx_case_plan(&one);
                 bool refused = plan.outcome.status == GX_REFUSED;
-                bool blends = !c.clock->tableau && !(c.kind->fixed_grid && mixes_weights(c.clock));
+                bool blends = !c.clock->tableau && !(c.kind->fixed_grid && mixes_weights(c.clock)) && !(t == 3 && mass);
                 CHECK(refused == ((c.basis->deforms && !c.kind->fixed_grid) || (t > 0 && !blends)), "%s", describe(&c));
                 if (refused) continue;
                 check(&c);

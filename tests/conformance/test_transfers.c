@@ -88,22 +88,7 @@ static void weights_sum_to_one_and_gradients_to_zero(void **state)
   each_setting(check_unity);
 }
 
-/* Where function k of an axis sits, such that sum_k S_k(x) site(k) = x. Nodes for hats; the same nodes for GIMP, one ghost
- * earlier, because a hat averaged over a symmetric domain still reproduces x; means of the inner knots (Greville) for B-splines.
- * So every basis has linear reproduction; coefficients of a periodic axis are those of the unwrapped line. */
-static double site(const struct setting *setting, int d, int k)
-{
-  const struct gx_axis *axis = &setting->points.grid.axis[d];
-  if (setting->basis->has_domain) return (k - 1) * axis->h;
-  double sum = 0;
-  for (int i = 1; i <= axis->degree; i++) {
-    double knot = k + i - axis->degree;
-    if (!axis->periodic) knot = knot < 0 ? 0 : knot > axis->cells ? axis->cells : knot;
-    sum += knot;
-  }
-  return sum / axis->degree * axis->h;
-}
-
+/* Coefficients of a periodic axis are those of the unwrapped line. */
 static void check_linear(const struct setting *setting)
 {
   const struct gx_grid *grid = &setting->points.grid;
@@ -113,7 +98,8 @@ static void check_linear(const struct setting *setting)
   for (int d = 0; d < dim; d++)
     for (size_t i = 0; i < grid->stored; i++)
       for (int e = 0; e < dim; e++)
-        field[d][i] += (d + 1) * slope[e] * site(setting, e, (int)(i / grid->stride[e] % (size_t)grid->axis[e].stored));
+        field[d][i] += (d + 1) * slope[e] * grid->axis[e].h *
+                       setting->basis->site(&grid->axis[e], (int)(i / grid->stride[e] % (size_t)grid->axis[e].stored));
   gx_transfer_gather(&setting->points.weights, field, value);
   gx_transfer_gather_gradient(&setting->points.weights, field, gradient);
   for (int p = 0; p < N; p++)
