@@ -47,7 +47,8 @@ struct gx_measured {
    * relative to the largest sqrt(sum m |x - xc|^2 sum m v^2), xc the centre of mass: bounds of sum m |v| and
    * sum m |x - xc| |v| that do not vanish for a body that vibrates at rest. NaN: the problem does not keep it, or nothing moves. */
   double momentum_change, angular_change;
-  double probe_change; /* m/s^2: largest change of the probe's acceleration over a step within one cell; NaN: no probe */
+  double probe_change;       /* m/s^2: largest change of the probe's acceleration over a step within one cell; NaN: no probe */
+  double probe_displacement; /* m: largest, of the place asked for, from the nearest particle by its F; NaN: no probe */
 };
 
 struct gx_measure;
@@ -64,8 +65,8 @@ int gx_measure_jumps(struct gx_measure *measure);
 void gx_measure_momentum(struct gx_measure *measure, bool linear, bool angular);
 /* After each step of dt when jump errors are measured, before anything else. */
 void gx_measure_step(struct gx_measure *measure, double dt);
-/* Follows one particle from now on; before the first sample. */
-void gx_measure_follow(struct gx_measure *measure, size_t particle);
+/* Follows one particle from now on, the nearest to the reference coordinates `place`; before the first sample. */
+void gx_measure_follow(struct gx_measure *measure, size_t particle, const double *place);
 /* Where it was at the last sample. */
 const struct gx_probe *gx_measure_probe(const struct gx_measure *measure);
 /* What the stepper must call for the work of the body force. */

@@ -34,6 +34,8 @@ struct gx_problem_options {
   struct gx_body body;
   double velocity[GX_MAX_DIM]; /* of a body that flies freely, m/s */
   double spin;                 /* its angular velocity, about z, rad/s */
+  double rotation;             /* G, largest angle of a vortex, rad */
+  double gravity;              /* along -y, m/s^2 */
   /* model problems of steffen2010 §5 */
   int knot;              /* that the first step meets half way, from 1; 0: starts at x = 0 */
   double dt;             /* of that step, s */
@@ -62,7 +64,8 @@ struct gx_problem {
   const char *space;           /* space that holds its equations; NULL: a continuum, method.space chooses */
   const char *const *standard; /* defaults of its own, "mesh.cells=20", NULL-ended; NULL: the parameter table's */
   /* which problem.* and body.* parameters apply */
-  bool has_amplitude, has_mode, has_directions, has_poisson, has_interpolation_error, has_knots, has_jump, has_body, has_flight;
+  bool has_amplitude, has_mode, has_directions, has_poisson, has_interpolation_error, has_knots, has_jump, has_body, has_flight,
+      has_rotation, has_gravity;
   unsigned boundaries;       /* bit b: admits boundary b; 0: has no ends */
   enum gx_boundary boundary; /* the default */
   bool waves;                /* sin(2 pi m X) is what it is about: posed with tables of it, a frequency can be fitted */

@@ -33,15 +33,16 @@ struct gx_measure {
   struct vector_field v, a, v_before, a_before, exact_u, exact_v;
   struct tensor_field exact_F, exact_stress, stress, P;
   double *scratch;
-  struct vector_field cell; /* at the last sample, unwrapped */
-  const int *cells;         /* per direction; NULL: particles do not move through cells */
-  struct gx_jump *jump;     /* NULL: not measured */
-  long followed;            /* -1: no probe */
-  struct gx_probe probe;    /* at the last sample */
-  double work;              /* of the kicks done so far, J */
-  double start_energy;      /* kinetic and elastic at the first sample, J */
-  double start_balance;     /* the same less work, J */
-  bool linear, angular;     /* momenta that the problem keeps */
+  struct vector_field cell;  /* at the last sample, unwrapped */
+  const int *cells;          /* per direction; NULL: particles do not move through cells */
+  struct gx_jump *jump;      /* NULL: not measured */
+  long followed;             /* -1: no probe */
+  double beside[GX_MAX_DIM]; /* from its X to the place asked for, m */
+  struct gx_probe probe;     /* at the last sample */
+  double work;               /* of the kicks done so far, J */
+  double start_energy;       /* kinetic and elastic at the first sample, J */
+  double start_balance;      /* the same less work, J */
+  bool linear, angular;      /* momenta that the problem keeps */
   double start_momentum[GX_MAX_DIM], start_angular[GX_MAX_DIM];
   double linear_change, angular_change; /* largest so far, kg m/s and kg m^2/s */
   double linear_size, angular_size;     /* likewise */
@@ -80,7 +81,7 @@ struct gx_measure *gx_measure_create(struct gx_space *space, const struct gx_clo
         result->max_error[q][k] = NAN;
   if (level != GX_MEASURE_ALL) result->max_defect = result->drift = NAN;
   result->momentum_change = result->angular_change = NAN;
-  result->probe_change = result->last_jump = result->estimated_jump = NAN;
+  result->probe_change = result->probe_displacement = result->last_jump = result->estimated_jump = NAN;
   for (int k = 0; k < GX_NORMS; k++) result->max_jump[k] = NAN;
   result->last.crossings = level == GX_MEASURE_FINAL ? NAN : 0;
   double *at = measure->block;
@@ -126,10 +127,11 @@ void gx_measure_step(struct gx_measure *measure, double dt)
   measure->result.estimated_jump = measure->jump->estimate;
 }
 
-void gx_measure_follow(struct gx_measure *measure, size_t particle)
+void gx_measure_follow(struct gx_measure *measure, size_t particle, const double *place)
 {
   measure->followed = (long)particle;
-  if (measure->level != GX_MEASURE_FINAL) measure->result.probe_change = 0;
+  for (int d = 0; d < measure->dim; d++) measure->beside[d] = place[d] - measure->space->particles->X[d][particle];
+  if (measure->level != GX_MEASURE_FINAL) measure->result.probe_change = measure->result.probe_displacement = 0;
 }
 
 const struct gx_probe *gx_measure_probe(const struct gx_measure *measure)
@@ -341,6 +343,20 @@ static double crossings(struct gx_measure *measure)
   return measure->started ? measure->result.last.crossings + moved : 0;
 }
 
+/* Length of the displacement u + (F - I) (place - X) of the place that the probe stands for. */
+static double displacement_of_place(const struct gx_measure *measure)
+{
+  const size_t p = (size_t)measure->followed;
+  const struct gx_particles *particles = measure->space->particles;
+  double square = 0;
+  for (int d = 0; d < measure->dim; d++) {
+    double u = particles->u[d][p];
+    for (int e = 0; e < measure->dim; e++) u += (particles->F[d * measure->dim + e][p] - (d == e)) * measure->beside[e];
+    square += u * u;
+  }
+  return sqrt(square);
+}
+
 /* cell: of the probe one sample before. */
 static void follow(struct gx_measure *measure, const double *cell)
 {
@@ -363,7 +379,11 @@ static void follow(struct gx_measure *measure, const double *cell)
   struct gx_measured *result = &measure->result;
   if (measure->started && stayed && measure->level != GX_MEASURE_FINAL)
     result->probe_change = fmax(result->probe_change, sqrt(square));
+  if (measure->level != GX_MEASURE_FINAL)
+    result->probe_displacement = fmax(result->probe_displacement, displacement_of_place(measure));
 }
+
+static const double round_off = 1e-20; /* of energies, squares */
 
 static void keep_extremes(struct gx_measure *measure, const struct gx_sample *sample)
 {
@@ -381,6 +401,10 @@ static void keep_extremes(struct gx_measure *measure, const struct gx_sample *sa
     return;
   }
   result->max_defect = fmax(result->max_defect, sample->defect);
+  if (measure->start_energy <= round_off * (sample->kinetic + sample->elastic)) { /* from rest: there is no E0 */
+    measure->start_energy = 0;
+    result->drift = NAN;
+  }
   if (measure->start_energy > 0)
     result->drift = fmax(result->drift, fabs(balance - measure->start_balance) / measure->start_energy);
 }

@@ -52,10 +52,10 @@ static enum gx_measure_level level_of(const struct gx_case *one)
   return !strcmp(level, "final") ? GX_MEASURE_FINAL : !strcmp(level, "max") ? GX_MEASURE_MAX : GX_MEASURE_ALL;
 }
 
-/* The particle whose reference position is nearest to the coordinates in a text of one number a dimension. */
-static size_t nearest_particle(const struct gx_particles *particles, const char *text)
+/* The particle whose reference position is nearest to the coordinates in a text of one number a dimension. point: them. */
+static size_t nearest_particle(const struct gx_particles *particles, const char *text, double *point)
 {
-  double point[GX_MAX_DIM], least = INFINITY;
+  double least = INFINITY;
   size_t nearest = 0;
   for (int d = 0; d < particles->dim; d++) {
     char *rest;
@@ -150,8 +150,9 @@ static enum gx_status prepare(struct run *run, const struct gx_case *one, double
   run->stepper = gx_stepper_create(simulation->clock, simulation->space, &observer);
   if (!run->stepper) return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the clock");
   if (one->value[GX_OUTPUT_PROBE].type == GX_TEXT) {
-    run->result->probe = (long)nearest_particle(simulation->particles, one->value[GX_OUTPUT_PROBE].text);
-    gx_measure_follow(run->measure, (size_t)run->result->probe);
+    double place[GX_MAX_DIM];
+    run->result->probe = (long)nearest_particle(simulation->particles, one->value[GX_OUTPUT_PROBE].text, place);
+    gx_measure_follow(run->measure, (size_t)run->result->probe, place);
   }
   if (simulation->jumps && gx_measure_jumps(run->measure))
     return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the jumps");

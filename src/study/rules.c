@@ -146,6 +146,16 @@ bool gx_rules_spin_applies(const struct gx_value *value)
   return problem_of(value)->has_flight && value[GX_PROBLEM_DIMENSION].integer > 1;
 }
 
+bool gx_rules_rotation_applies(const struct gx_value *value)
+{
+  return problem_of(value)->has_rotation;
+}
+
+bool gx_rules_gravity_applies(const struct gx_value *value)
+{
+  return problem_of(value)->has_gravity;
+}
+
 bool gx_rules_body_applies(const struct gx_value *value)
 {
   return problem_of(value)->has_body;

@@ -41,6 +41,8 @@ bool gx_rules_poisson_applies(const struct gx_value *value);
 bool gx_rules_amplitude_applies(const struct gx_value *value);
 bool gx_rules_flight_applies(const struct gx_value *value);
 bool gx_rules_spin_applies(const struct gx_value *value);
+bool gx_rules_rotation_applies(const struct gx_value *value);
+bool gx_rules_gravity_applies(const struct gx_value *value);
 bool gx_rules_body_applies(const struct gx_value *value);
 bool gx_rules_size_applies(const struct gx_value *value);
 bool gx_rules_radius_applies(const struct gx_value *value);

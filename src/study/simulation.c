@@ -62,6 +62,8 @@ static void read_problem(struct gx_simulation *simulation, const struct gx_case 
   read_body(&options->body, options->dim, one);
   read_vector(one, GX_PROBLEM_VELOCITY, options->dim, options->velocity);
   options->spin = real(one, GX_PROBLEM_SPIN, 0);
+  options->rotation = real(one, GX_PROBLEM_ROTATION, 0);
+  options->gravity = real(one, GX_PROBLEM_GRAVITY, 0);
   const struct gx_value *active = &one->value[GX_PROBLEM_ACTIVE];
   read_vector(one, GX_PROBLEM_PHASES, options->dim, options->phase);
   for (int d = 0; d < options->dim; d++) {

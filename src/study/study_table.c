@@ -125,6 +125,7 @@ static void put_case(struct cursor *at, const struct gx_case *one, const struct 
   put_real(at, "result.jump.estimate", "m", ok ? measured->estimated_jump : NAN);
   put_count(at, "result.probe.particle", ran && one->value[GX_OUTPUT_PROBE].type == GX_TEXT ? (double)result->probe : NAN);
   put_real(at, "result.probe.acceleration_change", "m/s^2", ok ? measured->probe_change : NAN);
+  put_real(at, "result.probe.displacement.max", "m", ok ? measured->probe_displacement : NAN);
   for (int q = 0; q < GX_QUANTITIES; q++) put_spectrum(at, result, (enum gx_quantity)q);
   put_frequency(at, result);
   put_budget(at, "result.", &result->budget, ran);

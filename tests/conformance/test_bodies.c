@@ -208,7 +208,7 @@ static void without_exact_solution_errors_are_unknown(void **state)
   struct gx_measure *measure = gx_measure_create(simulation.space, simulation.clock, (int[]){8}, GX_MEASURE_ALL);
   struct gx_work_observer observer = gx_measure_work(measure);
   struct gx_stepper *stepper = gx_stepper_create(simulation.clock, simulation.space, &observer);
-  gx_measure_follow(measure, 3);
+  gx_measure_follow(measure, 3, (double[]){0.4, 0.4, 0.4});
   for (int i = 0; i < 3; i++) {
     double t = i * simulation.dt;
     assert_int_equal(gx_measure_take(measure, stepper, t, simulation.dt), GX_OK);

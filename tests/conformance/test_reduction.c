@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* With lambda = 0 a wave along one axis of 2-D and 3-D is the 1-D wave to round-off, in every space: with every clock, basis and
- * mass, every degree of the spline spaces, periodic and between fixed ends. All particles on a line across move alike. */
+ * mass, every degree of the spline spaces, periodic and between fixed ends. All particles on a line across move alike. With lambda,
+ * 2-D is plane strain. */
 #include <gsl/gsl_errno.h>
 
 #include "case_of.h"
@@ -140,6 +141,49 @@ static void with_every_degree_of_splines(void **state)
       }
 }
 
+/* The vortex with large shear in 2-D, and as a tube from wall to wall in 3-D, where nothing moves along the axis. */
+static void check_plane_strain(const char *space)
+{
+  struct rig plane, tube;
+  struct gx_case one = case_draft("problem.name=generalized-vortex", "problem.boundary=fixed", "mesh.cells=8", "time.cfl=0.1",
+                                  "mesh.particles_per_cell=3", "method.clock=rk4", "method.basis=linear");
+  case_set(&one, GX_METHOD_SPACE, space);
+  gx_parameter_resolve(one.value);
+  assert_true(rig_build(&plane, &one, NULL, NULL, NULL));
+  case_set_integer(&one, GX_PROBLEM_DIMENSION, 3);
+  assert_true(rig_build(&tube, &one, NULL, NULL, NULL));
+  rig_run(&plane, 6);
+  rig_run(&tube, 6);
+  const struct gx_particles *flat = plane.simulation.particles, *solid = tube.simulation.particles;
+  assert_int_equal(solid->n, 24 * flat->n);
+  double strain = 0;
+  for (size_t p = 0; p < solid->n; p++) {
+    const size_t q = p % flat->n;
+    NEAR(solid->X[0][p], flat->X[0][q], 0);
+    NEAR(solid->u[2][p], 0, 1e-15);
+    for (int d = 0; d < 3; d++)
+      for (int e = 0; e < 3; e++) {
+        const double F = d < 2 && e < 2 ? flat->F[2 * d + e][q] : d == e;
+        NEAR(solid->F[3 * d + e][p], F, within);
+        strain = fmax(strain, fabs(F - (d == e)));
+      }
+    for (int d = 0; d < 2; d++) {
+      NEAR(solid->u[d][p], flat->u[d][q], 0.1 * within);
+      NEAR(solid->v[d][p], flat->v[d][q], 10 * within); /* speeds are up to 80 m/s */
+    }
+  }
+  CHECK(strain > 0.1, "%s: %g", space, strain);
+  rig_free(&plane);
+  rig_free(&tube);
+}
+
+static void plane_strain_is_a_tube_between_walls(void **state)
+{
+  (void)state;
+  check_plane_strain("standard");
+  check_plane_strain("moving-mesh");
+}
+
 int main(void)
 {
   gsl_set_error_handler_off();
@@ -147,6 +191,7 @@ int main(void)
       cmocka_unit_test(with_every_clock),
       cmocka_unit_test(with_every_basis_and_mass),
       cmocka_unit_test(with_every_degree_of_splines),
+      cmocka_unit_test(plane_strain_is_a_tube_between_walls),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -35,19 +35,32 @@ static struct gx_problem_options options_of(const struct gx_problem *problem, in
     options.phase[d] = problem->has_directions ? 0.4 + 0.9 * d : 0;
     options.velocity[d] = 0.3 - 0.1 * d;
     options.body.centre[d] = 0.4 + 0.1 * d;
+    options.body.size[d] = 0.7;
   }
   options.spin = dim > 1 ? 2.3 : 0;
+  options.rotation = 0.6;
   return options;
 }
 
-/* Random points shifted by `shift` along direction e. */
+/* Of the difference quotients, m and s: what moves on a part of the domain varies faster over it. */
+static double step_of(const struct gx_problem *problem)
+{
+  return problem->inside ? 1e-4 : 1e-3;
+}
+
+/* Random points of the body shifted by `shift` along direction e. */
 static struct gx_posed *pose(const struct gx_problem *problem, const struct gx_problem_options *options, int e, double shift)
 {
   struct field X;
+  double at[GX_MAX_DIM];
   uint64_t seed = 23;
   of(&X);
-  for (int p = 0; p < N; p++)
-    for (int d = 0; d < options->dim; d++) X.store[d][p] = check_random(&seed, 0, 1) + (d == e ? shift : 0);
+  for (int p = 0; p < N; p++) {
+    do {
+      for (int d = 0; d < options->dim; d++) at[d] = check_random(&seed, 0, 1);
+    } while (problem->inside && !problem->inside(options, at));
+    for (int d = 0; d < options->dim; d++) X.store[d][p] = at[d] + (d == e ? shift : 0);
+  }
   return gx_problem_pose(problem, options, N, X.component);
 }
 
@@ -75,7 +88,7 @@ static double slope(const struct field *four, int k, int p, double step)
 
 static void check_exact(const struct gx_problem *problem, const struct gx_problem_options *options, double t)
 {
-  const double step = 1e-3;
+  const double step = step_of(problem);
   int dim = options->dim;
   struct gx_posed *posed = pose(problem, options, 0, 0);
   struct field u, v, F, a, u_at[4], v_at[4];
@@ -109,7 +122,7 @@ static void velocity_gradient_and_acceleration_are_derivatives(void **state)
 
 static void check_balance(const struct gx_problem *problem, const struct gx_problem_options *options, double t)
 {
-  const double step = 1e-3;
+  const double step = step_of(problem);
   int dim = options->dim;
   double divergence[GX_MAX_DIM][N] = {{0}};
   for (int e = 0; e < dim; e++) {

@@ -160,6 +160,7 @@ static const char *const result_columns[] = {
     "result.jump.estimate",
     "result.probe.particle",
     "result.probe.acceleration_change",
+    "result.probe.displacement.max",
     "result.spectrum.displacement.below",
     "result.spectrum.displacement.above",
     "result.spectrum.displacement.driven",
