@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "../core/aligned.h"
 #include "../core/kernel.h"
@@ -86,6 +87,7 @@ void gx_mesh_free(struct gx_space *space)
   if (!mesh) return;
   gx_mass_free(mesh->consistent);
   gx_affine_free(mesh->affine);
+  gx_lattice_free(mesh->lattice);
   gx_blocks_free(&mesh->blocks);
   gx_exchange_free(&mesh->exchange);
   free(mesh->block);
@@ -149,8 +151,7 @@ GX_CLONES static void divide_by_mass(size_t nodes, const double *restrict mass, 
   for (size_t i = 0; i < nodes; i++) field[i] = mass[i] > 0 ? field[i] / mass[i] : 0;
 }
 
-/* field[d] <- M^-1 field[d] with ends held, for every component. */
-static enum gx_status solve_mass(struct gx_mesh *mesh, double *const *field)
+enum gx_status gx_mesh_solve(struct gx_mesh *mesh, double *const *field)
 {
   for (int d = 0; d < mesh->grid.dim; d++) gx_grid_fold(&mesh->grid, field[d]);
   if (mesh->consistent) return gx_mass_solve(mesh->consistent, field, mesh->space.outcome);
@@ -225,7 +226,7 @@ enum gx_status gx_mesh_assemble(struct gx_mesh *mesh, double *const *value, doub
     GX_TRY(gx_mass_factor(mesh->consistent, &mesh->blocks.whole, mesh->space.particles->m, mesh->space.outcome));
   if (!value) return GX_OK;
   add_affine(mesh, value, field);
-  return solve_mass(mesh, field);
+  return gx_mesh_solve(mesh, field);
 }
 
 enum gx_status gx_mesh_postpone(struct gx_mesh *mesh)
@@ -243,12 +244,18 @@ void gx_mesh_catch_up(struct gx_mesh *mesh)
 enum gx_status gx_mesh_project(struct gx_mesh *mesh, double *const *value, double *const *field)
 {
   struct scattering scattering = {.mesh = mesh, .value = value};
+  if (mesh->lattice) {
+    for (int d = 0; d < mesh->grid.dim; d++) memset(field[d], 0, mesh->grid.stored * sizeof(double));
+    gx_lattice_scatter(mesh->lattice, mesh->space.particles->m, value, field);
+    add_affine(mesh, value, field);
+    return gx_mesh_solve(mesh, field);
+  }
   gx_mesh_catch_up(mesh);
   gx_exchange_collect(&mesh->exchange, NULL, field, NULL);
   gx_blocks_each_apart(&mesh->blocks, scatter_block, &scattering);
   gx_exchange_deliver(&mesh->exchange);
   add_affine(mesh, value, field);
-  return solve_mass(mesh, field);
+  return gx_mesh_solve(mesh, field);
 }
 
 long gx_mesh_stress(struct gx_mesh *mesh, struct gx_block *block)
@@ -303,8 +310,8 @@ enum gx_status gx_mesh_accelerate(struct gx_mesh *mesh, double t, long (*load)(s
   gx_exchange_deliver(&mesh->exchange);
   if (assemble) gx_grid_fold(&mesh->grid, mesh->mass); /* lumped */
   add_affine(mesh, scattering.value, mesh->v);
-  if (project) GX_TRY(solve_mass(mesh, mesh->v));
-  return solve_mass(mesh, mesh->a);
+  if (project) GX_TRY(gx_mesh_solve(mesh, mesh->v));
+  return gx_mesh_solve(mesh, mesh->a);
 }
 
 double gx_mesh_kinetic(const struct gx_space *space)
@@ -334,6 +341,10 @@ static void gather_block(void *context, struct gx_block *block)
 void gx_mesh_gather(struct gx_mesh *mesh, double *const *field, double *const *value)
 {
   struct gathering gathering = {mesh, value, NULL};
+  if (mesh->lattice) {
+    gx_lattice_gather(mesh->lattice, field, value, NULL);
+    return;
+  }
   gx_exchange_lend(&mesh->exchange, field, NULL);
   gx_blocks_each(&mesh->blocks, gather_block, &gathering);
 }
@@ -341,6 +352,10 @@ void gx_mesh_gather(struct gx_mesh *mesh, double *const *field, double *const *v
 void gx_mesh_gather_gradient(struct gx_mesh *mesh, double *const *field, double *const *gradient)
 {
   struct gathering gathering = {mesh, NULL, gradient};
+  if (mesh->lattice) {
+    gx_lattice_gather(mesh->lattice, field, NULL, gradient);
+    return;
+  }
   gx_exchange_lend(&mesh->exchange, field, NULL);
   gx_blocks_each(&mesh->blocks, gather_block, &gathering);
 }

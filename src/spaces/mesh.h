@@ -8,6 +8,7 @@
 #include "affine.h"
 #include "blocks.h"
 #include "exchange.h"
+#include "lattice.h"
 #include "mass.h"
 
 struct gx_mesh {
@@ -16,6 +17,7 @@ struct gx_mesh {
   struct gx_grid grid;
   struct gx_blocks blocks; /* of particles, with their weights and scratch */
   struct gx_exchange exchange;
+  struct gx_lattice *lattice; /* moving mesh: its transfers factored by direction; NULL: by blocks alone */
   struct gx_mass *consistent; /* NULL: lumped */
   struct gx_affine *affine;   /* NULL: particles keep no affine part of velocity */
   /* nodal fields, [grid.stored]; mass is zero at periodic images, the others are copied there */
@@ -62,6 +64,8 @@ void gx_mesh_kick_block(const struct gx_mesh *mesh, const struct gx_block *block
 /* Nodal fields at all particles, and their gradients. */
 void gx_mesh_gather(struct gx_mesh *mesh, double *const *field, double *const *value);
 void gx_mesh_gather_gradient(struct gx_mesh *mesh, double *const *field, double *const *gradient);
+/* field[d] <- M^-1 field[d] with ends held, for every component. */
+enum gx_status gx_mesh_solve(struct gx_mesh *mesh, double *const *field);
 double gx_mesh_kinetic(const struct gx_space *space);
 /* Adds component arrays to the list of what a space advances. */
 void gx_mesh_append(struct gx_state *state, int count, double *const *array, size_t length);

@@ -2,25 +2,35 @@
 /* Moving-mesh (total Lagrangian) MPM, steffen2010 eqs 50-61: weights at the reference positions X, computed once,
  *   F_p = I + sum u_i D_ip,  a_i = M^-1 sum (-V0 P_p D_ip + m_p b_p S_ip),  v_i += dt a_i,  u_i += dt v_i.
  * projection once: the state is (u_i, v_i) and particles sample it, x_p = X_p + sum S_ip u_i, v_p = sum S_ip v_i.
+ * On a complete lattice of particles all sums over weights are factored by direction (lattice.h), and F, P and the forces of a
+ * row of particles exist only while it is in cache: particles see them when they are settled.
  * projection each-step: the paper to the letter, v_i = M^-1 sum m_p v_p S_ip each step, u_p and v_p incremented. */
 #include "mesh.h"
 
+#include <limits.h>
+#include <stdatomic.h>
 #include <string.h>
 
 #include "../core/kernel.h"
 #include "../core/vector.h"
 
+struct moving_mesh {
+  struct gx_mesh mesh;
+  double accelerated; /* s, when the lattice last was */
+};
+
 static enum gx_status create(const struct gx_space_kind *kind, struct gx_space **space, const struct gx_space_options *options,
                              struct gx_particles *particles, const struct gx_posed *posed, struct gx_outcome *outcome)
 {
   struct gx_mesh *mesh = NULL;
-  GX_TRY(gx_mesh_create(&mesh, sizeof *mesh, kind, options, particles, posed, outcome));
+  GX_TRY(gx_mesh_create(&mesh, sizeof(struct moving_mesh), kind, options, particles, posed, outcome));
   *space = &mesh->space;
   posed->problem->material->piola(&posed->options.moduli, particles->dim, particles->n, particles->F, particles->P);
   GX_TRY(gx_mesh_weigh(mesh, NULL, NULL));
   GX_TRY(gx_mesh_assemble(mesh, particles->u, mesh->u));
   GX_TRY(gx_mesh_project(mesh, particles->v, mesh->v));
   if (mesh->affine) gx_affine_gather(mesh);
+  mesh->lattice = gx_lattice_create(&mesh->grid, options->basis, particles, options->team);
   return GX_OK;
 }
 
@@ -51,15 +61,11 @@ static void deform_block(const struct gx_mesh *mesh, const struct gx_block *bloc
   for (int d = 0; d < dim; d++) add_one(block->n, F[d * dim + d]);
 }
 
-static void visit_to_deform(void *context, struct gx_block *block)
-{
-  deform_block(context, block);
-}
-
 static void deform(struct gx_mesh *mesh)
 {
-  gx_exchange_lend(&mesh->exchange, mesh->u, NULL);
-  gx_blocks_each(&mesh->blocks, visit_to_deform, mesh);
+  const struct gx_particles *particles = mesh->space.particles;
+  gx_mesh_gather_gradient(mesh, mesh->u, particles->F);
+  for (int d = 0; d < particles->dim; d++) add_one(particles->n, particles->F[d * particles->dim + d]);
 }
 
 static long load(struct gx_mesh *mesh, struct gx_block *block)
@@ -70,9 +76,74 @@ static long load(struct gx_mesh *mesh, struct gx_block *block)
   return tangled;
 }
 
+/* A pass of forces over a lattice. */
+struct loading {
+  struct gx_mesh *mesh;
+  double t;
+  atomic_long tangled; /* first particle; LONG_MAX: none */
+};
+
+/* T <- -V0 T */
+GX_CLONES static void times_volume(size_t n, const double *restrict V0, double *restrict T)
+{
+  for (size_t p = 0; p < n; p++) T[p] *= -V0[p];
+}
+
+GX_CLONES static void times_mass(size_t n, const double *restrict m, double *restrict b)
+{
+  for (size_t p = 0; p < n; p++) b[p] *= m[p];
+}
+
+/* grad u to F, P(F) and -V0 P, and the body force, in place. */
+static void load_row(void *context, const struct gx_lattice_row *row)
+{
+  struct loading *loading = context;
+  const struct gx_mesh *mesh = loading->mesh;
+  const struct gx_particles *particles = mesh->space.particles;
+  const struct gx_posed *posed = mesh->space.posed;
+  const int dim = particles->dim;
+  for (int d = 0; d < dim; d++) add_one(row->n, row->gradient[d * dim + d]);
+  long bad = posed->problem->material->piola(&posed->options.moduli, dim, row->n, row->gradient, row->T);
+  long first = atomic_load_explicit(&loading->tangled, memory_order_relaxed);
+  if (bad >= 0) bad += (long)row->first;
+  while (bad >= 0 && bad < first && !atomic_compare_exchange_weak(&loading->tangled, &first, bad)) continue;
+  for (int k = 0; k < dim * dim; k++) {
+    if (mesh->options.stress_rate) memcpy(row->T[k], particles->P[k] + row->first, row->n * sizeof(double));
+    times_volume(row->n, particles->V0 + row->first, row->T[k]);
+  }
+  if (!posed->problem->body) return;
+  const struct gx_posed part = gx_problem_part(posed, row->first, row->n);
+  posed->problem->body(&part, loading->t, row->body);
+  for (int d = 0; d < dim; d++) times_mass(row->n, particles->m + row->first, row->body[d]);
+}
+
+static enum gx_status accelerate_lattice(struct moving_mesh *moving, double t)
+{
+  struct gx_mesh *mesh = &moving->mesh;
+  const struct gx_particles *particles = mesh->space.particles;
+  struct loading loading = {.mesh = mesh, .t = t, .tangled = LONG_MAX};
+  const struct gx_lattice_pass pass = {.field = mesh->u,
+                                       .gradient = true,
+                                       .sum = mesh->a,
+                                       .T = true,
+                                       .body = mesh->space.posed->problem->body,
+                                       .visit = load_row,
+                                       .context = &loading};
+  for (int d = 0; d < particles->dim; d++) memset(mesh->a[d], 0, mesh->grid.stored * sizeof(double));
+  gx_lattice_run(mesh->lattice, &pass);
+  moving->accelerated = t;
+  if (loading.tangled < LONG_MAX) {
+    deform(mesh);
+    return gx_status_set(mesh->space.outcome, GX_TANGLED, loading.tangled, "det F of a particle is %g",
+                         gx_particles_jacobian(particles, (size_t)loading.tangled));
+  }
+  return gx_mesh_solve(mesh, mesh->a);
+}
+
 static enum gx_status accelerate(struct gx_space *space, double t)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
+  if (mesh->lattice) return accelerate_lattice((struct moving_mesh *)space, t);
   gx_exchange_lend(&mesh->exchange, mesh->u, NULL);
   return gx_mesh_accelerate(mesh, t, load);
 }
@@ -195,10 +266,23 @@ static enum gx_status twofold(struct gx_space *space, enum gx_primitive primitiv
   return GX_OK;
 }
 
+/* Gives particles what a pass over the lattice left out: P of F and the body force of the last acceleration. */
+static void catch_up(struct moving_mesh *moving)
+{
+  struct gx_mesh *mesh = &moving->mesh;
+  struct gx_particles *particles = mesh->space.particles;
+  const struct gx_posed *posed = mesh->space.posed;
+  const struct gx_problem *problem = posed->problem;
+  if (!mesh->options.stress_rate)
+    problem->material->piola(&posed->options.moduli, particles->dim, particles->n, particles->F, particles->P);
+  if (problem->body) problem->body(posed, moving->accelerated, particles->b);
+}
+
 static void settle(struct gx_space *space)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
   deform(mesh);
+  if (mesh->lattice) catch_up((struct moving_mesh *)space);
   if (mesh->options.each_step) return;
   gx_mesh_gather(mesh, mesh->u, space->particles->u);
   gx_mesh_gather(mesh, mesh->v, space->particles->v);
