@@ -21,6 +21,7 @@ GX_CORE bool piola_points(const int dim, const bool bulk, const struct gx_moduli
     out[k] = P[k];
   }
   int bad = 0;
+  GX_APART
   for (size_t p = 0; p < n; p++) {
     double f[GX_MAX_TENSOR], c[GX_MAX_TENSOR];
     for (int k = 0; k < dim * dim; k++) f[k] = in[k][p];

@@ -238,19 +238,10 @@ static double *in_lines(const struct gx_lattice *lattice, double *L, int line)
   return L + (size_t)(line % lattice->middle.support) * L_KINDS * row_of(lattice);
 }
 
-/* A row of nodes, one entry for every point that meets it: entry k + j period is function first[k] + j. */
-static void expand(const struct direction *line, const double *restrict row, double *restrict nodes)
+/* Entries of a row of nodes that the points of one place in a cell meet. */
+static int met_by_each(const struct direction *line)
 {
-  const int period = line->period, count = line->points / period + line->support - 1;
-  for (int r = 0; r < period; r++)
-    for (int c = 0; c < count; c++) nodes[c * period + r] = row[line->first[r] + c];
-}
-
-static void fold(const struct direction *line, const double *restrict nodes, double *restrict row)
-{
-  const int period = line->period, count = line->points / period + line->support - 1;
-  for (int r = 0; r < period; r++)
-    for (int c = 0; c < count; c++) row[line->first[r] + c] += nodes[c * period + r];
+  return line->points / line->period + line->support - 1;
 }
 
 static void enter_plane(struct sweep *sweep, int plane)
@@ -259,13 +250,13 @@ static void enter_plane(struct sweep *sweep, int plane)
   const struct gx_lattice_pass *pass = sweep->pass;
   const struct direction *line = &lattice->line;
   const size_t row = row_of(lattice), n = (size_t)line->points;
-  if (pass->sum)
+  if (pass->sum && lattice->dim > 1)
     memset(in_window(lattice, sweep->X_sum, plane, 0), 0, (size_t)lattice->middle.nodes * X_KINDS * row * sizeof(double));
   for (int i = 0; pass->field && i < lattice->middle.nodes; i++) {
     double *X = in_window(lattice, sweep->X, plane, i);
     const size_t at = (size_t)plane * lattice->outer.stride + (size_t)i * lattice->middle.stride;
     for (int d = 0; d < lattice->dim; d++, X += lattice->pitch) {
-      expand(line, pass->field[d] + at, sweep->nodes);
+      gx_rows_expand(line->period, met_by_each(line), line->first, pass->field[d] + at, sweep->nodes);
       if (pass->gradient) gx_rows_gather(line->support, (size_t)line->period, line->D, sweep->nodes, n, X);
       if (pass->value || lattice->dim > 1) gx_rows_gather(line->support, (size_t)line->period, line->S, sweep->nodes, n, X + row);
     }
@@ -282,12 +273,12 @@ static void leave_plane(struct sweep *sweep, int plane)
   for (int i = 0; pass->sum && i < lattice->middle.nodes; i++) {
     const double *X = in_window(lattice, sweep->X_sum, plane, i);
     for (int d = 0; d < lattice->dim; d++, X += lattice->pitch) {
-      memset(sweep->nodes, 0, lattice->nodes_pitch * sizeof(double));
       if (pass->T)
         gx_rows_scatter(line->support, (size_t)line->period, line->D, X, line->S, value ? X + row : NULL, n, sweep->nodes);
       else
         gx_rows_scatter(line->support, (size_t)line->period, line->S, X + row, NULL, NULL, n, sweep->nodes);
-      fold(line, sweep->nodes, sweep->out[d] + (size_t)i * lattice->middle.stride);
+      gx_rows_fold(line->period, met_by_each(line), line->first, sweep->nodes,
+                   sweep->out[d] + (size_t)i * lattice->middle.stride);
     }
   }
 }
@@ -327,7 +318,8 @@ static void enter_line(struct sweep *sweep, int point, int line)
   const struct gx_lattice *lattice = sweep->lattice;
   const struct direction *outer = &lattice->outer;
   double *X[GX_MAX_SUPPORT], *L = in_lines(lattice, sweep->L, line);
-  if (sweep->pass->sum) memset(in_lines(lattice, sweep->L_sum, line), 0, L_KINDS * row_of(lattice) * sizeof(double));
+  if (sweep->pass->sum && lattice->dim > 2)
+    memset(in_lines(lattice, sweep->L_sum, line), 0, L_KINDS * row_of(lattice) * sizeof(double));
   if (!sweep->pass->field || lattice->dim < 2) return;
   for (int j = 0; j < outer->support; j++) X[j] = in_window(lattice, sweep->X, outer->first[point] + j, line);
   combine(sweep, outer, point, X_KINDS, X, sweep->pass->value || lattice->dim > 2, L);

@@ -2,6 +2,8 @@
 /* Cores are inlined with the number of rows constant, so that the sum over rows stays in registers. */
 #include "rows.h"
 
+#include <stdbool.h>
+
 #include <gridcross/basis.h>
 
 #include "../core/kernel.h"
@@ -80,23 +82,52 @@ GX_CORE void gather(const int rows, size_t apart, const double *restrict w, cons
 GX_CLONES void gx_rows_gather(int rows, size_t apart, const double *w, const double *nodes, size_t n,
                               double *out){FOR_ROWS(rows, gather, apart, w, nodes, n, out)}
 
-GX_CORE void add_row(const double *restrict w, const double *restrict in, size_t n, double *restrict out)
+GX_CORE void set_both(const double *restrict w, const double *restrict in, const double *restrict w_more,
+                      const double *restrict more, size_t n, const bool add, double *restrict out)
 {
-  for (size_t i = 0; i < n; i++) out[i] += w[i] * in[i];
-}
-
-GX_CORE void add_both_rows(const double *restrict w, const double *restrict in, const double *restrict w_more,
-                           const double *restrict more, size_t n, double *restrict out)
-{
-  for (size_t i = 0; i < n; i++) out[i] += w[i] * in[i] + w_more[i] * more[i];
+  for (size_t i = 0; i < n; i++) {
+    double sum = more ? w[i] * in[i] + w_more[i] * more[i] : w[i] * in[i];
+    out[i] = add ? out[i] + sum : sum;
+  }
 }
 
 GX_CLONES void gx_rows_scatter(int rows, size_t apart, const double *w, const double *in, const double *w_more,
                                const double *more, size_t n, double *nodes)
 {
+  for (size_t i = n; i < n + (size_t)(rows - 1) * apart; i++) nodes[i] = 0;
   for (size_t j = 0; j < (size_t)rows; j++)
     if (more)
-      add_both_rows(w + j * n, in, w_more + j * n, more, n, nodes + j * apart);
+      set_both(w + j * n, in, w_more + j * n, more, n, j > 0, nodes + j * apart);
     else
-      add_row(w + j * n, in, n, nodes + j * apart);
+      set_both(w + j * n, in, NULL, NULL, n, j > 0, nodes + j * apart);
+}
+
+GX_CORE void expand(const int period, int count, const int *first, const double *restrict row, double *restrict nodes)
+{
+  for (int c = 0; c < count; c++)
+    for (int r = 0; r < period; r++) nodes[c * period + r] = row[first[r] + c];
+}
+
+GX_CORE void fold(const int period, int count, const int *first, const double *restrict nodes, double *restrict row)
+{
+  for (int r = 0; r < period; r++)
+    for (int c = 0; c < count; c++) row[first[r] + c] += nodes[c * period + r];
+}
+
+#define FOR_PERIOD(period, core, ...)                                                                                            \
+  switch (period) {                                                                                                              \
+    ONE_CASE(1, core, __VA_ARGS__)                                                                                               \
+    ONE_CASE(2, core, __VA_ARGS__)                                                                                               \
+    ONE_CASE(3, core, __VA_ARGS__)                                                                                               \
+    ONE_CASE(4, core, __VA_ARGS__)                                                                                               \
+  default:                                                                                                                       \
+    core(period, __VA_ARGS__);                                                                                                   \
+  }
+
+GX_CLONES void gx_rows_expand(int period, int count, const int *first, const double *row,
+                              double *nodes){FOR_PERIOD(period, expand, count, first, row, nodes)}
+
+GX_CLONES void gx_rows_fold(int period, int count, const int *first, const double *nodes, double *row)
+{
+  FOR_PERIOD(period, fold, count, first, nodes, row)
 }

@@ -14,8 +14,13 @@ void gx_rows_spread(int rows, const double *w, const double *in, const double *w
 /* Along a row, where neighbours `apart` entries from each other are combined. w: [rows][n]; nodes: [n + (rows - 1) apart].
  * out[i] = sum_j w[j][i] nodes[i + j apart] */
 void gx_rows_gather(int rows, size_t apart, const double *w, const double *nodes, size_t n, double *out);
-/* nodes[i + j apart] += w[j][i] in[i]; with more: + w_more[j][i] more[i] */
+/* nodes[k] = sum over i + j apart = k of w[j][i] in[i]; with more: + w_more[j][i] more[i] */
 void gx_rows_scatter(int rows, size_t apart, const double *w, const double *in, const double *w_more, const double *more,
                      size_t n, double *nodes);
+/* Such rows of nodes from those of a field, in which points r, r + period, ... meet entries first[r], first[r] + 1, ...; count of each:
+ * nodes[c period + r] = row[first[r] + c] */
+void gx_rows_expand(int period, int count, const int *first, const double *row, double *nodes);
+/* row[first[r] + c] += nodes[c period + r] */
+void gx_rows_fold(int period, int count, const int *first, const double *nodes, double *row);
 
 #endif
