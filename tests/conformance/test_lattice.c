@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Transfers factored by direction against the general ones: every basis and degree, 1-D to 3-D, periodic and bounded, both
+/* Sums factored by direction against the general ones: every basis and degree, 1-D to 3-D, periodic and bounded, both
  * layouts, grids smaller than a support and grids of several parts, with one thread and with several. */
 #include <string.h>
 
+#include <gsl/gsl_errno.h>
+
 #include "check.h"
 #include "points.h"
+#include "rig.h"
 #include "spaces/lattice.h"
 
 struct setting {
@@ -164,11 +167,85 @@ static void other_particles_do_not_factor(void **state)
   gx_particles_free(particles);
 }
 
+/* The case on a lattice, and on the same particles of which nobody says that they are one. */
+static void build_both(struct rig *rig, const struct gx_case *one)
+{
+  assert_true(rig_build(&rig[0], one, NULL, NULL, NULL));
+  const size_t n = rig[0].simulation.particles->n;
+  size_t *order = malloc(n * sizeof *order);
+  for (size_t p = 0; p < n; p++) order[p] = p;
+  assert_true(rig_build(&rig[1], one, order, NULL, NULL));
+  free(order);
+}
+
+/* Particles that are settled after an acceleration have all that they have on the general path. */
+static void settled_particles_are_complete(void **state)
+{
+  (void)state;
+  static const char *const dimensions[] = {"1", "2", "3"}, *const stresses[] = {"F", "rate"},
+                           *const projections[] = {"once", "each-step"};
+  for (int i = 0; i < 12; i++) {
+    struct gx_case one = case_draft("problem.name=axis-aligned", "problem.modulus=1", "problem.poisson=0.3", "mesh.cells=6",
+                                    "mesh.particles_per_cell=2", "method.space=moving-mesh", "time.dt=0.02", "time.end=1");
+    case_set(&one, GX_PROBLEM_DIMENSION, dimensions[i % 3]);
+    case_set(&one, GX_METHOD_STRESS, stresses[i / 3 % 2]);
+    case_set(&one, GX_METHOD_PROJECTION, projections[i / 6]);
+    gx_parameter_resolve(one.value);
+    struct rig rig[2];
+    build_both(rig, &one);
+    for (int r = 0; r < 2; r++) {
+      rig_run(&rig[r], 5);
+      assert_int_equal(gx_stepper_accelerate(rig[r].stepper, 5 * rig[r].simulation.dt), GX_OK);
+      rig[r].simulation.kind->settle(rig[r].simulation.space);
+    }
+    const struct gx_particles *here = rig[0].simulation.particles, *there = rig[1].simulation.particles;
+    double moved = 0;
+    for (int d = 0; d < here->dim; d++)
+      for (size_t p = 0; p < here->n; p++) {
+        NEAR(here->u[d][p], there->u[d][p], 1e-15);
+        NEAR(here->v[d][p], there->v[d][p], 1e-14);
+        NEAR(here->b[d][p], there->b[d][p], 1e-14);
+        moved = fmax(moved, fabs(here->b[d][p]));
+      }
+    for (int k = 0; k < here->dim * here->dim; k++)
+      for (size_t p = 0; p < here->n; p++) {
+        NEAR(here->F[k][p], there->F[k][p], 1e-13);
+        NEAR(here->P[k][p], there->P[k][p], 1e-13);
+      }
+    assert_true(moved > 0.1);
+    rig_free(&rig[0]);
+    rig_free(&rig[1]);
+  }
+}
+
+/* The same particle is the first to tangle. */
+static void the_first_to_tangle_is_named(void **state)
+{
+  (void)state;
+  struct gx_case one =
+      case_of("problem.name=axis-aligned", "problem.dimension=2", "problem.modulus=1", "problem.amplitude=0.15", "mesh.cells=16",
+              "mesh.particles_per_cell=2", "method.space=moving-mesh", "time.dt=0.4", "time.end=9");
+  struct rig rig[2];
+  build_both(rig, &one);
+  for (int r = 0; r < 2; r++)
+    for (int k = 0; k < 20 && rig[r].outcome.status == GX_OK; k++) gx_stepper_step(rig[r].stepper, k * 0.4, 0.4);
+  assert_int_equal(rig[0].outcome.status, GX_TANGLED);
+  assert_true(rig[0].outcome.particle > 0);
+  assert_int_equal(rig[0].outcome.particle, rig[1].outcome.particle);
+  CLOSE(gx_particles_jacobian(rig[0].simulation.particles, (size_t)rig[0].outcome.particle),
+        gx_particles_jacobian(rig[1].simulation.particles, (size_t)rig[1].outcome.particle), 1e-9);
+  rig_free(&rig[0]);
+  rig_free(&rig[1]);
+}
+
 int main(void)
 {
+  gsl_set_error_handler_off();
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(factored_sums_are_the_general_ones),
       cmocka_unit_test(other_particles_do_not_factor),
+      cmocka_unit_test(settled_particles_are_complete),
+      cmocka_unit_test(the_first_to_tangle_is_named),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
