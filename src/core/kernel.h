@@ -14,7 +14,7 @@
 
 /* Before a loop: its iterations do not touch each other's data, which pointers in an array cannot say. */
 #if defined __clang__
-#define GX_APART _Pragma("clang loop vectorize(assume_safety)")
+#define GX_APART
 #else
 #define GX_APART _Pragma("GCC ivdep")
 #endif

@@ -5,7 +5,8 @@
 #include "stencil.h"
 
 /* Vectors of one node; two of half the size where the machine has none. */
-typedef double quad __attribute__((vector_size(32), may_alias));
+typedef double quad __attribute__((vector_size(32)));
+typedef quad node __attribute__((may_alias)); /* in memory that is doubles elsewhere */
 
 /* Calls core(dim, support, weights, ...) with constants where the support is a common one. */
 #define SPECIALISE(core, weights, ...)                                                                                           \
@@ -39,7 +40,7 @@ GX_CORE void store_quad(const int count, double *const *component, size_t p, con
 GX_CORE void scatter(const int dim, const int s, const struct gx_weights *w, const bool carry, const double *m, double *const *v,
                      double *momentum, const bool push, double *const *T, double *const *body, double *force)
 {
-  quad *const out_momentum = (quad *)momentum, *const out_force = (quad *)force;
+  node *const out_momentum = (node *)momentum, *const out_force = (node *)force;
   const double *velocity[GX_MAX_DIM], *load[GX_MAX_DIM], *column[GX_MAX_DIM][GX_MAX_DIM];
   for (int d = 0; d < dim; d++) {
     velocity[d] = v ? v[d] : NULL;
@@ -49,18 +50,21 @@ GX_CORE void scatter(const int dim, const int s, const struct gx_weights *w, con
   for (size_t p = 0; p < w->n; p++) {
     struct gx_stencil stencil;
     gx_stencil_load(dim, s, w, p, push, &stencil);
-    quad carried = {0}, loaded = {0}, t[GX_MAX_DIM] = {{0}};
+    quad carried = {0}, loaded = {0}, t0 = {0}, t1 = {0}, t2 = {0}; /* in an array they would go through memory */
     if (carry) {
       carried = (quad){1, v ? velocity[0][p] : 0, v && dim > 1 ? velocity[1][p] : 0, v && dim > 2 ? velocity[2][p] : 0};
       carried *= m[p];
     }
     if (push && body) loaded = LOAD(dim, load, p);
-    for (int e = 0; push && e < dim; e++) t[e] = LOAD(dim, column[e], p);
+    if (push) t0 = LOAD(dim, column[0], p);
+    if (push && dim > 1) t1 = LOAD(dim, column[1], p);
+    if (push && dim > 2) t2 = LOAD(dim, column[2], p);
     GX_STENCIL_ROWS(dim, s)
     {
       const struct gx_stencil_row row = gx_stencil_row(dim, w, &stencil, k1, k2, push);
-      quad row_carried = carried * row.W, along = t[0] * row.W, across = loaded * row.W;
-      for (int e = 1; e < dim; e++) across += t[e] * row.slope[e];
+      quad row_carried = carried * row.W, along = t0 * row.W, across = loaded * row.W;
+      if (dim > 1) across += t1 * row.slope[1];
+      if (dim > 2) across += t2 * row.slope[2];
       for (int k = 0; k < s; k++) {
         if (carry) out_momentum[row.node + (size_t)k] += row_carried * stencil.S[0][k];
         if (push) out_force[row.node + (size_t)k] += along * stencil.D[0][k] + across * stencil.S[0][k];
@@ -85,7 +89,7 @@ GX_CORE void gather(const int dim, const int s, const struct gx_weights *w, cons
                     double *const *acceleration, const bool take_v, const double *v, double *const *velocity,
                     const bool take_slopes, double *const *gradient)
 {
-  const quad *const field_a = (const quad *)a, *const field_v = (const quad *)v;
+  const node *const field_a = (const node *)a, *const field_v = (const node *)v;
   double *out_a[GX_MAX_DIM], *out_v[GX_MAX_DIM], *out_g[GX_MAX_DIM][GX_MAX_DIM];
   for (int d = 0; d < dim; d++) {
     out_a[d] = take_a ? acceleration[d] : NULL;
@@ -101,10 +105,12 @@ GX_CORE void gather(const int dim, const int s, const struct gx_weights *w, cons
       const struct gx_stencil_row row = gx_stencil_row(dim, w, &stencil, k1, k2, take_slopes);
       quad row_a = {0}, row_v = {0}, row_g = {0};
       for (int k = 0; k < s; k++) {
-        const size_t node = row.node + (size_t)k;
-        if (take_a) row_a = k ? row_a + field_a[node] * stencil.S[0][k] : field_a[node] * stencil.S[0][k];
-        row_v = k ? row_v + field_v[node] * stencil.S[0][k] : field_v[node] * stencil.S[0][k];
-        if (take_slopes) row_g = k ? row_g + field_v[node] * stencil.D[0][k] : field_v[node] * stencil.D[0][k];
+        const size_t i = row.node + (size_t)k;
+        const quad v_i = field_v[i], term_a = take_a ? (quad)field_a[i] * stencil.S[0][k] : (quad){0};
+        const quad term_v = v_i * stencil.S[0][k], term_g = v_i * stencil.D[0][k];
+        row_a = k ? row_a + term_a : term_a;
+        row_v = k ? row_v + term_v : term_v;
+        if (take_slopes) row_g = k ? row_g + term_g : term_g;
       }
       if (take_a) sum_a += row_a * row.W;
       if (take_v) sum_v += row_v * row.W;

@@ -44,6 +44,7 @@ GX_CORE void kirchhoff_points(const int dim, const struct gx_particles *particle
     P[k] = particles->P[k] + block->from;
     out[k] = block->T[k];
   }
+  GX_APART
   for (size_t p = 0; p < block->n; p++)
     for (int i = 0; i < dim; i++)
       for (int j = 0; j < dim; j++) {
@@ -79,6 +80,7 @@ GX_CORE void stretch_points(const int dim, size_t n, double *const *F, double *c
     f[k] = F[k];
     l[k] = L[k];
   }
+  GX_APART
   for (size_t p = 0; p < n; p++)
     for (int i = 0; i < dim; i++) {
       double row[GX_MAX_DIM];
