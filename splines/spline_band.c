@@ -81,64 +81,76 @@ void gx_spline_band_solve(const struct gx_spline_band *band, const double *b, do
   GX_SPLINE_FOR_DEGREE(band->upper, backward(degree, band, x))
 }
 
-GX_SPLINE_CORE void forward_many(const int lower, const size_t count, const struct gx_spline_band *band, const double *b,
-                                 double *x)
+/* sum -= row[d step] x of row i + d step, from the far end of the band on; x: row i. */
+GX_SPLINE_CORE void eliminate(const int reach, const int step, size_t count, const double *row, gx_spline_four *sum,
+                              const double *x)
+{
+  for (int d = reach; d >= 1; d--) {
+    const gx_spline_four *other = (const gx_spline_four *)(x + d * step * (ptrdiff_t)count);
+    GX_SPLINE_EACH_FOUR(k) sum[k] -= row[d * step] * other[k];
+  }
+}
+
+GX_SPLINE_CORE void forward_lanes(const int lower, size_t count, const struct gx_spline_band *band, const double *b, double *x)
 {
   const size_t stride = 2 * (size_t)band->degree + 1, rows = band->rows;
   const double *row = band->entry + band->degree;
   for (size_t i = 0; i < rows; i++, row += stride, b += count, x += count) {
-    const int reach = i < (size_t)lower ? (int)i : lower;
-    if (reach == lower)
-      for (size_t s = 0; s < count; s++) {
-        double sum = b[s] * row[0];
-        for (int d = lower; d >= 1; d--) sum -= row[-d] * x[(ptrdiff_t)s - d * (ptrdiff_t)count];
-        x[s] = sum;
-      }
+    gx_spline_four sum[GX_SPLINE_FOURS];
+    GX_SPLINE_EACH_FOUR(k) sum[k] = ((const gx_spline_four *)b)[k] * row[0];
+    if (i >= (size_t)lower)
+      eliminate(lower, -1, count, row, sum, x);
     else
-      for (size_t s = 0; s < count; s++) {
-        double sum = b[s] * row[0];
-        for (int d = reach; d >= 1; d--) sum -= row[-d] * x[(ptrdiff_t)s - d * (ptrdiff_t)count];
-        x[s] = sum;
-      }
+      eliminate((int)i, -1, count, row, sum, x);
+    GX_SPLINE_EACH_FOUR(k)((gx_spline_four *)x)[k] = sum[k];
   }
 }
 
-GX_SPLINE_CORE void backward_many(const int upper, const size_t count, const struct gx_spline_band *band, double *x)
+GX_SPLINE_CORE void backward_lanes(const int upper, size_t count, const struct gx_spline_band *band, double *x)
 {
   const size_t stride = 2 * (size_t)band->degree + 1, rows = band->rows;
+  const double *row = band->entry + band->degree + rows * stride;
+  x += rows * count;
   for (size_t i = rows; i-- > 0;) {
-    const double *row = band->entry + band->degree + i * stride;
-    double *at = x + i * count;
-    const int reach = i + (size_t)upper < rows ? upper : (int)(rows - 1 - i);
-    if (reach == upper)
-      for (size_t s = 0; s < count; s++) {
-        double sum = at[s];
-        for (int d = upper; d >= 1; d--) sum -= row[d] * at[s + (size_t)d * count];
-        at[s] = sum;
-      }
+    row -= stride;
+    x -= count;
+    gx_spline_four sum[GX_SPLINE_FOURS];
+    GX_SPLINE_EACH_FOUR(k) sum[k] = ((const gx_spline_four *)x)[k];
+    if (i + (size_t)upper < rows)
+      eliminate(upper, 1, count, row, sum, x);
     else
-      for (size_t s = 0; s < count; s++) {
-        double sum = at[s];
-        for (int d = reach; d >= 1; d--) sum -= row[d] * at[s + (size_t)d * count];
-        at[s] = sum;
-      }
+      eliminate((int)(rows - 1 - i), 1, count, row, sum, x);
+    GX_SPLINE_EACH_FOUR(k)((gx_spline_four *)x)[k] = sum[k];
   }
 }
 
-GX_SPLINE_CLONES static void solve_lanes(const struct gx_spline_band *band, const double *b, double *x)
+GX_SPLINE_CLONES static void solve_lanes(const struct gx_spline_band *band, size_t count, const double *b, double *x)
 {
-  const size_t lanes = GX_SPLINE_LANES;
-  if (!band->lower) forward_many(0, lanes, band, b, x);
-  GX_SPLINE_FOR_DEGREE(band->lower, forward_many(degree, lanes, band, b, x))
-  GX_SPLINE_FOR_DEGREE(band->upper, backward_many(degree, lanes, band, x))
+  if (!band->lower) forward_lanes(0, count, band, b, x);
+  GX_SPLINE_FOR_DEGREE(band->lower, forward_lanes(degree, count, band, b, x))
+  GX_SPLINE_FOR_DEGREE(band->upper, backward_lanes(degree, count, band, x))
+}
+
+/* One of count systems. */
+static void solve_one(const struct gx_spline_band *band, size_t count, const double *b, double *x)
+{
+  const ptrdiff_t stride = 2 * band->degree + 1, rows = (ptrdiff_t)band->rows, step = (ptrdiff_t)count;
+  const double *row = band->entry + band->degree;
+  for (ptrdiff_t i = 0; i < rows; i++, row += stride) {
+    double sum = b[i * step] * row[0];
+    for (ptrdiff_t d = i < band->lower ? i : band->lower; d >= 1; d--) sum -= row[-d] * x[(i - d) * step];
+    x[i * step] = sum;
+  }
+  for (ptrdiff_t i = rows - 1; i >= 0; i--) {
+    row -= stride;
+    for (ptrdiff_t d = rows - 1 - i < band->upper ? rows - 1 - i : band->upper; d >= 1; d--)
+      x[i * step] -= row[d] * x[(i + d) * step];
+  }
 }
 
 void gx_spline_band_solve_many(const struct gx_spline_band *band, size_t count, const double *b, double *x)
 {
-  if (count == GX_SPLINE_LANES) {
-    solve_lanes(band, b, x);
-    return;
-  }
-  forward_many(band->lower, count, band, b, x);
-  backward_many(band->upper, count, band, x);
+  size_t s = 0;
+  for (; s + GX_SPLINE_LANES <= count; s += GX_SPLINE_LANES) solve_lanes(band, count, b + s, x + s);
+  for (; s < count; s++) solve_one(band, count, b + s, x + s);
 }

@@ -16,8 +16,10 @@
 #define GX_SPLINE_CLONES
 #endif
 
-/* Splines that are solved and evaluated side by side at full speed: [rows][GX_SPLINE_LANES] stays in the first cache. */
-enum { GX_SPLINE_LANES = 16 };
+/* Splines that are solved and evaluated side by side: their sums stay in registers, [rows][GX_SPLINE_LANES] in the first cache. */
+typedef double gx_spline_four __attribute__((vector_size(32), aligned(8), may_alias));
+enum { GX_SPLINE_FOURS = 4, GX_SPLINE_LANES = 4 * GX_SPLINE_FOURS };
+#define GX_SPLINE_EACH_FOUR(k) _Pragma("GCC unroll 4") for (int k = 0; k < GX_SPLINE_FOURS; k++)
 
 /* statement with `degree` a constant */
 #define GX_SPLINE_CASE(number, statement)                                                                                        \

@@ -125,60 +125,79 @@ GX_SPLINE_CORE void subtract(const int width, size_t m, const double *restrict r
   }
 }
 
-/* x_1 -= (B^-1 V) x_2 for count systems */
-GX_SPLINE_CORE void subtract_many(const size_t count, const struct gx_spline_border *border, double *x)
-{
-  const size_t w = border->width, m = border->rows - w;
-  const double *restrict right = border->right, *restrict end = x + m * count;
-  for (size_t i = 0; i < m; i++, right += w, x += count)
-    for (size_t s = 0; s < count; s++) {
-      double sum = 0;
-      for (size_t r = 0; r < w; r++) sum += right[r] * end[r * count + s];
-      x[s] -= sum;
-    }
-}
-
-GX_SPLINE_CLONES static void subtract_lanes(const struct gx_spline_border *border, double *x)
-{
-  subtract_many(GX_SPLINE_LANES, border, x);
-}
-
-/* x_2 = S^-1 (b_2 - W x_1), system s of count */
-static void close_ring(const struct gx_spline_border *border, const struct gx_spline_band *band, size_t count, size_t s,
-                       const double *b, double *x)
+/* x_2 = S^-1 (b_2 - W x_1), then x_1 -= (B^-1 V) x_2, for one of count systems */
+static void close_one(const struct gx_spline_border *border, const struct gx_spline_band *band, size_t count, const double *b,
+                      double *x)
 {
   const size_t w = border->width, m = border->rows - w, stride = 2 * (size_t)band->degree + 1;
-  double end[GX_SPLINE_MAX_DEGREE];
+  double end[GX_SPLINE_MAX_DEGREE], last[GX_SPLINE_MAX_DEGREE];
   for (size_t r = 0; r < w; r++) {
     const double *row = border->tail + r * stride + band->degree;
-    end[r] = b[(m + r) * count + s];
+    end[r] = b[(m + r) * count];
     for (int d = -band->lower; d <= band->upper; d++) {
       size_t j = column(border, m + r, d);
-      if (j < m) end[r] -= row[d] * x[j * count + s];
+      if (j < m) end[r] -= row[d] * x[j * count];
     }
   }
   for (size_t r = 0; r < w; r++) {
     double sum = 0;
     for (size_t c = 0; c < w; c++) sum += border->inverse[r * w + c] * end[c];
-    x[(m + r) * count + s] = sum;
+    x[(m + r) * count] = last[r] = sum;
   }
+  if (count == 1)
+    GX_SPLINE_FOR_DEGREE((int)w, subtract(degree, m, border->right, last, x))
+  else
+    for (size_t i = 0; i < m; i++) {
+      double sum = 0;
+      for (size_t r = 0; r < w; r++) sum += border->right[i * w + r] * last[r];
+      x[i * count] -= sum;
+    }
+}
+
+/* The same for GX_SPLINE_LANES of them. */
+GX_SPLINE_CORE void close_lanes(const int width, const struct gx_spline_border *border, const struct gx_spline_band *band,
+                                size_t count, const double *b, double *x)
+{
+  const size_t w = (size_t)width, m = border->rows - w, stride = 2 * (size_t)band->degree + 1;
+  gx_spline_four end[GX_SPLINE_MAX_DEGREE][GX_SPLINE_FOURS], last[GX_SPLINE_MAX_DEGREE][GX_SPLINE_FOURS];
+  for (size_t r = 0; r < w; r++) {
+    const double *row = border->tail + r * stride + band->degree;
+    GX_SPLINE_EACH_FOUR(k) end[r][k] = ((const gx_spline_four *)(b + (m + r) * count))[k];
+    for (int d = -band->lower; d <= band->upper; d++) {
+      size_t j = column(border, m + r, d);
+      if (j >= m) continue;
+      GX_SPLINE_EACH_FOUR(k) end[r][k] -= row[d] * ((const gx_spline_four *)(x + j * count))[k];
+    }
+  }
+  for (size_t r = 0; r < w; r++) {
+    GX_SPLINE_EACH_FOUR(k) last[r][k] = (gx_spline_four){0};
+    for (size_t c = 0; c < w; c++) GX_SPLINE_EACH_FOUR(k) last[r][k] += border->inverse[r * w + c] * end[c][k];
+    GX_SPLINE_EACH_FOUR(k)((gx_spline_four *)(x + (m + r) * count))[k] = last[r][k];
+  }
+  const double *right = border->right;
+  for (size_t i = 0; i < m; i++, right += w, x += count) {
+    gx_spline_four sum[GX_SPLINE_FOURS] = {{0}};
+    for (size_t r = 0; r < w; r++) GX_SPLINE_EACH_FOUR(k) sum[k] += right[r] * last[r][k];
+    GX_SPLINE_EACH_FOUR(k)((gx_spline_four *)x)[k] -= sum[k];
+  }
+}
+
+GX_SPLINE_CLONES static void close_many(const struct gx_spline_border *border, const struct gx_spline_band *band, size_t count,
+                                        const double *b, double *x)
+{
+  GX_SPLINE_FOR_DEGREE((int)border->width, close_lanes(degree, border, band, count, b, x))
 }
 
 void gx_spline_border_solve(const struct gx_spline_border *border, const struct gx_spline_band *band, size_t count,
                             const double *b, double *x)
 {
-  const size_t w = border->width, m = border->rows - w;
   const struct gx_spline_band B = inner(border, band);
   if (count == 1)
     gx_spline_band_solve(&B, b, x);
   else
     gx_spline_band_solve_many(&B, count, b, x);
-  if (!w) return;
-  for (size_t s = 0; s < count; s++) close_ring(border, band, count, s, b, x);
-  if (count == 1)
-    GX_SPLINE_FOR_DEGREE((int)w, subtract(degree, m, border->right, x + m, x))
-  else if (count == GX_SPLINE_LANES)
-    subtract_lanes(border, x);
-  else
-    subtract_many(count, border, x);
+  if (!border->width) return;
+  size_t s = 0;
+  for (; s + GX_SPLINE_LANES <= count; s += GX_SPLINE_LANES) close_many(border, band, count, b + s, x + s);
+  for (; s < count; s++) close_one(border, band, count, b + s, x + s);
 }

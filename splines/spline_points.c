@@ -98,30 +98,44 @@ GX_SPLINE_CORE void evaluate(const int degree, const struct gx_spline_points *po
 void gx_spline_points_evaluate(const struct gx_spline_points *points, int order, const double *coefficient, double *out){
     GX_SPLINE_FOR_DEGREE(points->degree, evaluate(degree, points, points->weight[order], coefficient, out))}
 
-GX_SPLINE_CORE void evaluate_many(const int degree, const size_t splines, const struct gx_spline_points *points,
-                                  const double *restrict weight, const double *restrict coefficient, double *restrict out)
+GX_SPLINE_CORE void evaluate_lanes(const int degree, const struct gx_spline_points *points, const double *weight, size_t splines,
+                                   const double *coefficient, double *out)
 {
   for (size_t i = 0; i < points->count; i++, weight += degree + 1, out += splines) {
     const double *c = coefficient + points->first[i] * splines;
-    for (size_t s = 0; s < splines; s++) {
-      double sum = weight[0] * c[s];
-      for (int j = 1; j <= degree; j++) sum += weight[j] * c[s + (size_t)j * splines];
-      out[s] = sum;
-    }
+    gx_spline_four sum[GX_SPLINE_FOURS];
+    GX_SPLINE_EACH_FOUR(k) sum[k] = weight[0] * ((const gx_spline_four *)c)[k];
+    for (int j = 1; j <= degree; j++)
+      GX_SPLINE_EACH_FOUR(k) sum[k] += weight[j] * ((const gx_spline_four *)(c + (size_t)j * splines))[k];
+    GX_SPLINE_EACH_FOUR(k)((gx_spline_four *)out)[k] = sum[k];
   }
 }
 
-GX_SPLINE_CLONES static void evaluate_lanes(const struct gx_spline_points *points, const double *weight,
-                                            const double *coefficient, double *out)
+GX_SPLINE_CLONES static void evaluate_sixteen(const struct gx_spline_points *points, const double *weight, size_t splines,
+                                              const double *coefficient, double *out)
 {
-  GX_SPLINE_FOR_DEGREE(points->degree, evaluate_many(degree, GX_SPLINE_LANES, points, weight, coefficient, out))
+  GX_SPLINE_FOR_DEGREE(points->degree, evaluate_lanes(degree, points, weight, splines, coefficient, out))
+}
+
+/* One of many splines. */
+static void evaluate_one(const struct gx_spline_points *points, const double *weight, size_t splines, const double *coefficient,
+                         double *out)
+{
+  const size_t row = (size_t)points->degree + 1;
+  for (size_t i = 0; i < points->count; i++, weight += row) {
+    const double *c = coefficient + points->first[i] * splines;
+    double sum = weight[0] * c[0];
+    for (size_t j = 1; j < row; j++) sum += weight[j] * c[j * splines];
+    out[i * splines] = sum;
+  }
 }
 
 void gx_spline_points_evaluate_many(const struct gx_spline_points *points, int order, size_t splines, const double *coefficient,
                                     double *out)
 {
-  if (splines == GX_SPLINE_LANES)
-    evaluate_lanes(points, points->weight[order], coefficient, out);
-  else
-    evaluate_many(points->degree, splines, points, points->weight[order], coefficient, out);
+  const double *weight = points->weight[order];
+  size_t s = 0;
+  for (; s + GX_SPLINE_LANES <= splines; s += GX_SPLINE_LANES)
+    evaluate_sixteen(points, weight, splines, coefficient + s, out + s);
+  for (; s < splines; s++) evaluate_one(points, weight, splines, coefficient + s, out + s);
 }

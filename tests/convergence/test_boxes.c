@@ -185,6 +185,46 @@ static void shear_is_that_of_the_moving_mesh(void **state)
   CHECK(strain > 0.1 && apart < 2e-3 * strain, "3-D: %g of %g", apart, strain);
 }
 
+/* Largest difference of u and P between stress from F and stress by rate. */
+static double apart_by_rate(const char *space, int dim, int steps, double *shear)
+{
+  struct rig rig[2];
+  struct motion motion = {0.5, 0.1};
+  double worst = 0;
+  for (int k = 0; k < 2; k++) {
+    struct gx_case one = plain_box(space, "fixed", "uniform", dim, 5);
+    case_set(&one, GX_METHOD_DEGREE, "4");
+    case_set(&one, GX_METHOD_STRESS, k ? "rate" : "F");
+    case_set_real(&one, GX_TIME_DT, 0.1 / steps);
+    case_set_integer(&one, GX_TIME_STEPS, steps);
+    gx_parameter_resolve(one.value);
+    assert_true(rig_build(&rig[k], &one, NULL, sheared, &motion));
+    rig_run(&rig[k], -1);
+    assert_int_equal(gx_stepper_accelerate(rig[k].stepper, 0.1), GX_OK); /* P of the end state */
+  }
+  const struct gx_particles *exact = rig[0].simulation.particles, *summed = rig[1].simulation.particles;
+  *shear = 0;
+  for (size_t p = 0; p < exact->n; p++) {
+    for (int d = 0; d < dim; d++) worst = fmax(worst, fabs(exact->u[d][p] - summed->u[d][p]));
+    for (int k = 0; k < dim * dim; k++) worst = fmax(worst, fabs(exact->P[k][p] - summed->P[k][p]));
+    *shear = fmax(*shear, fabs(exact->P[1][p]));
+  }
+  for (int k = 0; k < 2; k++) rig_free(&rig[k]);
+  return worst;
+}
+
+/* dP/dt at F for grad v, integrated, is P(F) but for the clock's error, of order 4, and moves the box alike. */
+static void stress_by_rate_is_that_of_F(void **state)
+{
+  (void)state;
+  for (int s = 0; s < 2; s++)
+    for (int dim = 2; dim <= GX_MAX_DIM; dim++) {
+      double shear, coarse = apart_by_rate(spaces[s], dim, 10, &shear), fine = apart_by_rate(spaces[s], dim, 20, &shear);
+      CHECK(shear > 0.01 && fine < 1e-5 * shear && log2(coarse / fine) > 3.75, "%s %d-D: %g and %g of %g, order %g", spaces[s],
+            dim, coarse, fine, shear, log2(coarse / fine));
+    }
+}
+
 static double energy_of(const struct rig *rig)
 {
   const struct gx_particles *particles = rig->simulation.particles;
@@ -260,6 +300,7 @@ int main(void)
       cmocka_unit_test(degree_gives_order),
       cmocka_unit_test(walls_are_mirrors),
       cmocka_unit_test(shear_is_that_of_the_moving_mesh),
+      cmocka_unit_test(stress_by_rate_is_that_of_F),
       cmocka_unit_test(energy_is_kept_through_uniform_particles),
       cmocka_unit_test(the_stable_step_is_that_of_the_diagonal),
   };
