@@ -41,6 +41,9 @@ struct gx_particles *gx_particles_create(int dim, const int *cells, int per_cell
 struct gx_particles *gx_particles_fill(int dim, const int *cells, int per_cell, enum gx_layout layout, double density,
                                        bool (*inside)(const void *body, const double *X), const void *body);
 
+/* Gauss points of the cells as particles of density 1, V0 their weights, with domains so narrow that functions averaged over them are
+ * what they average. */
+struct gx_particles *gx_particles_points(int dim, const int *cells, int per_cell);
 /* A copy with its own memory; NULL when that runs out. */
 struct gx_particles *gx_particles_copy(const struct gx_particles *particles);
 void gx_particles_free(struct gx_particles *particles);

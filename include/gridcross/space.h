@@ -20,6 +20,7 @@ struct gx_space_options {
   const struct gx_basis *basis;
   int degree;
   bool consistent;      /* mass matrix: consistent, else lumped (row sums) */
+  bool reconstructed;   /* method.quadrature: integrals over reconstructed fields, else sums over particles */
   bool pic;             /* particle velocity from the grid, else by increments (FLIP) */
   bool apic;            /* with pic: and its affine part about each particle */
   double flip;          /* blend: flip * FLIP + (1 - flip) * PIC */

@@ -147,6 +147,14 @@ struct gx_particles *gx_particles_create(int dim, const int *cells, int per_cell
   return gx_particles_fill(dim, cells, per_cell, layout, density, NULL, NULL);
 }
 
+struct gx_particles *gx_particles_points(int dim, const int *cells, int per_cell)
+{
+  struct gx_particles *points = gx_particles_create(dim, cells, per_cell, GX_LAYOUT_GAUSS, 1);
+  for (int d = 0; points && d < dim; d++)
+    for (size_t q = 0; q < points->n; q++) points->half_length[d][q] *= 1e-12;
+  return points;
+}
+
 struct gx_particles *gx_particles_copy(const struct gx_particles *particles)
 {
   struct gx_particles *copy = allocate(particles->dim, particles->n);

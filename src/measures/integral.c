@@ -11,22 +11,14 @@
 
 enum { BLOCK = 1024 }; /* points found at once */
 
-/* The narrowest domain of GIMP is the hat itself. */
-static void narrow_domains(struct gx_particles *points)
-{
-  for (int d = 0; d < points->dim; d++)
-    for (size_t p = 0; p < points->n; p++) points->half_length[d][p] *= 1e-12;
-}
-
 static enum gx_status allocate(struct gx_integral *integral, const struct gx_space *like, const struct gx_space_options *options,
                                struct gx_outcome *outcome)
 {
   int per_cell = options->basis->has_degree ? options->degree + 2 : 3;
   int dim = like->particles->dim;
-  struct gx_particles *points = gx_particles_create(dim, options->cells, per_cell, GX_LAYOUT_GAUSS, 1);
+  struct gx_particles *points = gx_particles_points(dim, options->cells, per_cell);
   integral->points = points;
   if (!points) return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the budget's integrals");
-  narrow_domains(points);
   double *block = malloc(points->n * (size_t)(dim + 1) * sizeof *block);
   integral->w = block;
   if (!block) return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the budget's integrals");
@@ -37,6 +29,7 @@ static enum gx_status allocate(struct gx_integral *integral, const struct gx_spa
   }
   struct gx_space_options consistent = *options;
   consistent.consistent = true;
+  consistent.reconstructed = false; /* the points are where integrals are taken */
   return gx_mesh_create(&integral->mesh, sizeof *integral->mesh, like->kind, &consistent, points, like->posed, outcome);
 }
 

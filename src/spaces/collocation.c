@@ -8,6 +8,7 @@
 #include "../core/aligned.h"
 #include "../core/kernel.h"
 #include "../core/vector.h"
+#include "sites.h"
 
 static struct gx_collocation *of(struct gx_space *space)
 {

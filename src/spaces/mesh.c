@@ -67,8 +67,17 @@ enum gx_status gx_mesh_create(struct gx_mesh **out, size_t size, const struct gx
   mesh->space = (struct gx_space){.kind = kind, .particles = particles, .posed = posed, .outcome = outcome};
   mesh->options = *options;
   lay_out_grid(mesh);
+  enum gx_status status = GX_OK;
   double *arrays = gx_aligned_zeros(place_arrays(mesh, NULL) * sizeof(double), &mesh->block);
-  if (options->consistent) mesh->consistent = gx_mass_create(&mesh->grid, options->basis, particles);
+  if (options->reconstructed)
+    status = gx_reconstruction_create(&mesh->reconstruction, &mesh->grid, options, particles, kind->fixed_grid, outcome);
+  if (status != GX_OK) {
+    gx_mesh_free(&mesh->space);
+    return status;
+  }
+  if (options->consistent)
+    mesh->consistent =
+        gx_mass_create(&mesh->grid, options->basis, mesh->reconstruction ? mesh->reconstruction->points : particles);
   const bool whole = options->consistent || options->apic;
   if (gx_blocks_init(&mesh->blocks, &mesh->grid, options->basis, particles->n, particles->X, whole, options->team) ||
       gx_exchange_init(&mesh->exchange, &mesh->grid, options->team) || !arrays || (options->consistent && !mesh->consistent) ||
@@ -88,6 +97,7 @@ void gx_mesh_free(struct gx_space *space)
   gx_mass_free(mesh->consistent);
   gx_affine_free(mesh->affine);
   gx_lattice_free(mesh->lattice);
+  gx_reconstruction_free(mesh->reconstruction);
   gx_blocks_free(&mesh->blocks);
   gx_exchange_free(&mesh->exchange);
   free(mesh->block);
@@ -133,7 +143,7 @@ static enum gx_status weigh(struct gx_mesh *mesh, double *const *u, double *cons
   struct gx_blocks_stray stray = gx_blocks_place(&mesh->blocks, u, low, high);
   if (stray.d >= 0) return report_stray(mesh, &stray);
   if (mesh->affine) gx_affine_weigh(mesh, mesh->blocks.x);
-  return GX_OK;
+  return mesh->reconstruction ? gx_reconstruction_place(mesh->reconstruction, mesh->blocks.x) : GX_OK;
 }
 
 enum gx_status gx_mesh_weigh(struct gx_mesh *mesh, double *const *u, double *const *F)
@@ -214,16 +224,66 @@ static void scatter_block(void *context, struct gx_block *block)
                       mesh->space.posed->problem->body ? block->body : NULL);
 }
 
+/* T of the particles, which the reconstruction takes from there. */
+static void keep_block(void *context, struct gx_block *block)
+{
+  struct scattering *scattering = context;
+  struct gx_mesh *mesh = scattering->mesh;
+  double *b[GX_MAX_DIM];
+  gx_block_part(block, mesh->grid.dim, mesh->space.particles->b, b);
+  load_block(scattering, block, b);
+  for (int k = 0; k < mesh->grid.dim * mesh->grid.dim; k++)
+    memcpy(mesh->reconstruction->field[k] + block->from, block->T[k], block->n * sizeof(double));
+}
+
+static void scatter_points(void *context, struct gx_block *block)
+{
+  const struct scattering *scattering = context;
+  struct gx_mesh *mesh = scattering->mesh;
+  const struct gx_reconstruction *r = mesh->reconstruction;
+  const int dim = mesh->grid.dim;
+  double *value[GX_MAX_DIM], *T[GX_MAX_TENSOR], *body[GX_MAX_DIM];
+  gx_block_part(block, dim, r->points->v, value);
+  gx_block_part(block, dim * dim, r->points->P, T);
+  gx_block_part(block, dim, r->points->b, body);
+  gx_exchange_scatter(&mesh->exchange, block, r->points->m + block->from, scattering->value ? value : NULL, T,
+                      mesh->space.posed->problem->body ? body : NULL);
+}
+
+/* Scatters from the points that integrals are sums over. */
+static void scatter(struct scattering *scattering)
+{
+  struct gx_mesh *mesh = scattering->mesh;
+  struct gx_reconstruction *r = mesh->reconstruction;
+  if (!r) {
+    gx_blocks_each_apart(&mesh->blocks, scatter_block, scattering);
+    return;
+  }
+  if (scattering->load) {
+    gx_blocks_each(&mesh->blocks, keep_block, scattering);
+    gx_reconstruction_force(r, mesh->space.posed->problem->body ? mesh->space.particles->b : NULL);
+  }
+  if (scattering->value) gx_reconstruction_value(r, scattering->value);
+  gx_blocks_each_apart(&r->blocks, scatter_points, scattering);
+}
+
+static enum gx_status factor_mass(struct gx_mesh *mesh)
+{
+  const struct gx_reconstruction *r = mesh->reconstruction;
+  return gx_mass_factor(mesh->consistent, r ? &r->blocks.whole : &mesh->blocks.whole, (r ? r->points : mesh->space.particles)->m,
+                        mesh->space.outcome);
+}
+
 enum gx_status gx_mesh_assemble(struct gx_mesh *mesh, double *const *value, double *const *field)
 {
   struct scattering scattering = {.mesh = mesh, .value = value};
   mesh->unprojected = false;
+  if (mesh->reconstruction) gx_reconstruction_mass(mesh->reconstruction);
   gx_exchange_collect(&mesh->exchange, mesh->mass, value ? field : NULL, NULL);
-  gx_blocks_each_apart(&mesh->blocks, scatter_block, &scattering);
+  scatter(&scattering);
   gx_exchange_deliver(&mesh->exchange);
   gx_grid_fold(&mesh->grid, mesh->mass);
-  if (mesh->consistent)
-    GX_TRY(gx_mass_factor(mesh->consistent, &mesh->blocks.whole, mesh->space.particles->m, mesh->space.outcome));
+  if (mesh->consistent) GX_TRY(factor_mass(mesh));
   if (!value) return GX_OK;
   add_affine(mesh, value, field);
   return gx_mesh_solve(mesh, field);
@@ -232,7 +292,8 @@ enum gx_status gx_mesh_assemble(struct gx_mesh *mesh, double *const *value, doub
 enum gx_status gx_mesh_postpone(struct gx_mesh *mesh)
 {
   mesh->unprojected = true;
-  if (mesh->consistent) return gx_mesh_assemble(mesh, mesh->options.each_step ? mesh->space.particles->v : NULL, mesh->v);
+  if (mesh->consistent || mesh->reconstruction)
+    return gx_mesh_assemble(mesh, mesh->options.each_step ? mesh->space.particles->v : NULL, mesh->v);
   return GX_OK;
 }
 
@@ -252,7 +313,7 @@ enum gx_status gx_mesh_project(struct gx_mesh *mesh, double *const *value, doubl
   }
   gx_mesh_catch_up(mesh);
   gx_exchange_collect(&mesh->exchange, NULL, field, NULL);
-  gx_blocks_each_apart(&mesh->blocks, scatter_block, &scattering);
+  scatter(&scattering);
   gx_exchange_deliver(&mesh->exchange);
   add_affine(mesh, value, field);
   return gx_mesh_solve(mesh, field);
@@ -295,6 +356,29 @@ void gx_mesh_kick_block(const struct gx_mesh *mesh, const struct gx_block *block
   }
 }
 
+void gx_mesh_moment(const struct gx_mesh *mesh, double *const *field, double *moment)
+{
+  for (int d = 0; d < mesh->grid.dim; d++) moment[d] = gx_vector_dot(mesh->grid.stored, mesh->mass, field[d]);
+}
+
+void gx_mesh_expect_momentum(const struct gx_mesh *mesh, double kick, double *momentum)
+{
+  const struct gx_particles *particles = mesh->space.particles;
+  const double flip = mesh->options.pic ? 0 : mesh->options.flip;
+  double impulse[GX_MAX_DIM], of_nodes[GX_MAX_DIM];
+  if (!mesh->reconstruction) return;
+  gx_mesh_moment(mesh, mesh->a, impulse);
+  gx_mesh_moment(mesh, mesh->v, of_nodes);
+  for (int d = 0; d < particles->dim; d++)
+    momentum[d] =
+        flip * (gx_vector_dot(particles->n, particles->m, particles->v[d]) + kick * impulse[d]) + (1 - flip) * of_nodes[d];
+}
+
+void gx_mesh_keep_momentum(const struct gx_mesh *mesh, const double *momentum, double *const *v)
+{
+  if (mesh->reconstruction) gx_reconstruction_keep(mesh->reconstruction, momentum, v);
+}
+
 enum gx_status gx_mesh_accelerate(struct gx_mesh *mesh, double t, long (*load)(struct gx_mesh *mesh, struct gx_block *block))
 {
   struct gx_particles *particles = mesh->space.particles;
@@ -303,7 +387,7 @@ enum gx_status gx_mesh_accelerate(struct gx_mesh *mesh, double t, long (*load)(s
       .mesh = mesh, .value = project ? particles->v : NULL, .t = t, .load = load, .tangled = LONG_MAX};
   mesh->unprojected = false;
   gx_exchange_collect(&mesh->exchange, assemble ? mesh->mass : NULL, project ? mesh->v : NULL, mesh->a);
-  gx_blocks_each_apart(&mesh->blocks, scatter_block, &scattering);
+  scatter(&scattering);
   if (scattering.tangled < LONG_MAX)
     return gx_status_set(mesh->space.outcome, GX_TANGLED, scattering.tangled, "det F of a particle is %g",
                          gx_particles_jacobian(particles, (size_t)scattering.tangled));

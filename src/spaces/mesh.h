@@ -10,6 +10,7 @@
 #include "exchange.h"
 #include "lattice.h"
 #include "mass.h"
+#include "reconstruction.h"
 
 struct gx_mesh {
   struct gx_space space;
@@ -17,9 +18,10 @@ struct gx_mesh {
   struct gx_grid grid;
   struct gx_blocks blocks; /* of particles, with their weights and scratch */
   struct gx_exchange exchange;
-  struct gx_lattice *lattice; /* moving mesh: its transfers factored by direction; NULL: by blocks alone */
-  struct gx_mass *consistent; /* NULL: lumped */
-  struct gx_affine *affine;   /* NULL: particles keep no affine part of velocity */
+  struct gx_lattice *lattice;               /* moving mesh: its transfers factored by direction; NULL: by blocks alone */
+  struct gx_mass *consistent;               /* NULL: lumped */
+  struct gx_affine *affine;                 /* NULL: particles keep no affine part of velocity */
+  struct gx_reconstruction *reconstruction; /* NULL: integrals are sums over particles */
   /* nodal fields, [grid.stored]; mass is zero at periodic images, the others are copied there */
   double *mass;                     /* row sums, kg */
   double *v[GX_MAX_DIM];            /* m/s */
@@ -61,6 +63,12 @@ long gx_mesh_load_nominal(struct gx_mesh *mesh, struct gx_block *block);
 /* v_p <- flip (v_p + kick S a) + (1 - flip) S v, from a and v of the block; the latter is not looked at where flip is 1. Their affine
  * part is gx_affine_gather's, once the nodes are kicked. */
 void gx_mesh_kick_block(const struct gx_mesh *mesh, const struct gx_block *block, double kick);
+/* The momentum that a kick with the nodes' a is to leave the particles with, and bringing them to it; only where the integrals are not
+ * sums over particles, which would keep it anyway. Kicked nodes: v is that after the kick. */
+void gx_mesh_expect_momentum(const struct gx_mesh *mesh, double kick, double *momentum);
+void gx_mesh_keep_momentum(const struct gx_mesh *mesh, const double *momentum, double *const *v);
+/* Sum of mass times field over the nodes. moment: [dim] */
+void gx_mesh_moment(const struct gx_mesh *mesh, double *const *field, double *moment);
 /* Nodal fields at all particles, and their gradients. */
 void gx_mesh_gather(struct gx_mesh *mesh, double *const *field, double *const *value);
 void gx_mesh_gather_gradient(struct gx_mesh *mesh, double *const *field, double *const *gradient);

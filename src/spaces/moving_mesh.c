@@ -30,7 +30,7 @@ static enum gx_status create(const struct gx_space_kind *kind, struct gx_space *
   GX_TRY(gx_mesh_assemble(mesh, particles->u, mesh->u));
   GX_TRY(gx_mesh_project(mesh, particles->v, mesh->v));
   if (mesh->affine) gx_affine_gather(mesh);
-  mesh->lattice = gx_lattice_create(&mesh->grid, options->basis, particles, options->team);
+  if (!options->reconstructed) mesh->lattice = gx_lattice_create(&mesh->grid, options->basis, particles, options->team);
   return GX_OK;
 }
 
@@ -218,8 +218,11 @@ static void advance(struct gx_space *space, double kick, double span, double dri
     for (int d = 0; d < dim; d++) gx_vector_add(mesh->grid.stored, drift, mesh->v[d], mesh->u[d]);
   if (!mesh->options.each_step) return;
   struct following following = {mesh, kick, drift};
+  double momentum[GX_MAX_DIM];
+  gx_mesh_expect_momentum(mesh, kick, momentum);
   gx_exchange_lend(&mesh->exchange, mesh->v, kick != 0 ? mesh->a : NULL);
   gx_blocks_each(&mesh->blocks, follow_block, &following);
+  if (kick != 0) gx_mesh_keep_momentum(mesh, momentum, space->particles->v);
 }
 
 static void open_block(void *context, struct gx_block *block)
@@ -286,6 +289,9 @@ static void settle(struct gx_space *space)
   if (mesh->options.each_step) return;
   gx_mesh_gather(mesh, mesh->u, space->particles->u);
   gx_mesh_gather(mesh, mesh->v, space->particles->v);
+  double momentum[GX_MAX_DIM];
+  gx_mesh_moment(mesh, mesh->v, momentum);
+  gx_mesh_keep_momentum(mesh, momentum, space->particles->v);
 }
 
 static void state(struct gx_space *space, struct gx_state *list)
@@ -312,7 +318,10 @@ static void rates(struct gx_space *space, double *const *rate)
   for (int d = 0; d < dim; d++) memcpy(rate[d], mesh->v[d], mesh->grid.stored * sizeof(double));
   rate += dim;
   if (mesh->options.each_step) {
+    double impulse[GX_MAX_DIM];
     gx_mesh_gather(mesh, mesh->a, rate);
+    gx_mesh_moment(mesh, mesh->a, impulse);
+    gx_mesh_keep_momentum(mesh, impulse, rate);
     if (mesh->options.particle_motion)
       for (int d = 0; d < dim; d++) memcpy(rate[dim + d], particles->v[d], particles->n * sizeof(double));
     else

@@ -2,38 +2,14 @@
 /* Splines of each direction of a lattice, and products of their operators. */
 #include "spline_lattice.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Sites that a spline refuses, in terms of particles. */
-static enum gx_status misplaced(const struct gx_spline_lattice *lattice, const struct gx_spline_error *error)
-{
-  const double *x = lattice->direction[0].x + 1;
-  const size_t n = lattice->n;
-  struct gx_outcome *outcome = lattice->outcome;
-  for (size_t p = 0; p < n; p++)
-    if (!isfinite(x[p])) return gx_status_set(outcome, GX_UNSTABLE, (long)p, "a particle is at %g", x[p]);
-  for (size_t p = 0; p < n && !lattice->periodic; p++)
-    if (lattice->closed ? !(x[p] > 0 && x[p] < 1) : !(x[p] >= 0 && x[p] <= 1))
-      return gx_status_set(outcome, GX_LEFT_DOMAIN, (long)p, "a particle is at %.6g, past the fixed end at %d", x[p], x[p] > 0.5);
-  for (size_t p = 1; p < n; p++)
-    if (!(x[p] > x[p - 1]))
-      return gx_status_set(outcome, GX_TANGLED, (long)p, "a particle at %.17g has met or passed its neighbour at %.17g", x[p],
-                           x[p - 1]);
-  if (lattice->periodic && error->status == GX_SPLINE_OUTSIDE)
-    return gx_status_set(outcome, GX_TANGLED, (long)n - 1, "a particle at %.17g has met or passed the first one's image at %.17g",
-                         x[n - 1], x[0] + 1);
-  return gx_status_set(outcome, GX_REFUSED, -1, "%s", error->message);
-}
+#include "sites.h"
 
 static enum gx_status report(const struct gx_spline_lattice *lattice, const struct gx_spline_error *error)
 {
-  if (error->status == GX_SPLINE_NOT_INCREASING || error->status == GX_SPLINE_OUTSIDE) return misplaced(lattice, error);
-  enum gx_status status = error->status == GX_SPLINE_MEMORY     ? GX_FAILED
-                          : error->status == GX_SPLINE_SINGULAR ? GX_SINGULAR
-                                                                : GX_REFUSED;
-  return gx_status_set(lattice->outcome, status, -1, "%s", error->message);
+  return gx_sites_report(lattice->outcome, error, lattice->n, lattice->direction[0].x + 1, lattice->periodic, lattice->closed);
 }
 
 #define SPLINE(lattice, call)                                                                                                    \

@@ -75,6 +75,16 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                         .applies = gx_rules_is_galerkin,
                         .help = "mass matrix: row sums, or the full matrix solved each step",
                         .why = "cheap, and the literature's; consistent is needed for order above 2"},
+    [GX_METHOD_QUADRATURE] = {.path = "method.quadrature",
+                              .type = GX_TEXT,
+                              .unit = "",
+                              .choice = gx_rules_quadrature_choice,
+                              .standard = "particles",
+                              .applies = gx_rules_is_galerkin,
+                              .help =
+                                  "integrals of mass, momentum and force: sums over particles, or Gauss points of the cells at "
+                                  "fields reconstructed from the particles (Tielen et al. 2017, Wobbes et al. 2019)",
+                              .why = "what MPM is; reconstructed keeps the order where particles cross cells"},
     [GX_METHOD_TRANSFER] =
         {.path = "method.transfer",
          .type = GX_TEXT,

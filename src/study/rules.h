@@ -15,6 +15,7 @@ const char *gx_rules_shape_choice(int i);
 const char *gx_rules_variant_choice(int i);
 const char *gx_rules_layout_choice(int i);
 const char *gx_rules_mass_choice(int i);
+const char *gx_rules_quadrature_choice(int i);
 const char *gx_rules_transfer_choice(int i);
 const char *gx_rules_position_choice(int i);
 const char *gx_rules_projection_choice(int i);

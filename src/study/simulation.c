@@ -97,6 +97,7 @@ static void read_method(struct gx_simulation *simulation, const struct gx_case *
   options->basis = basis->type == GX_TEXT ? gx_basis_find(basis->text) : NULL;
   options->degree = (int)integer(one, GX_METHOD_DEGREE, 1);
   options->consistent = is(one, GX_METHOD_MASS, "consistent");
+  options->reconstructed = is(one, GX_METHOD_QUADRATURE, "reconstructed");
   options->apic = is(one, GX_METHOD_TRANSFER, "apic");
   options->pic = options->apic || is(one, GX_METHOD_TRANSFER, "pic");
   options->flip = real(one, GX_METHOD_FLIP, 1);
@@ -172,6 +173,11 @@ static enum gx_status refuse(const struct gx_simulation *simulation, struct gx_o
                          "%s with %s would not keep momentum: its nodal velocity and its last weights are of two positions; use "
                          "transfer flip with flip 1",
                          grid_velocity, simulation->clock->name);
+  if (options->apic && options->reconstructed)
+    return gx_status_set(
+        outcome, GX_REFUSED, -1,
+        "APIC's affine momenta are sums over particles, which quadrature reconstructed does not take: use transfer "
+        "flip or pic, or quadrature particles");
   if (options->apic && options->consistent)
     return gx_status_set(
         outcome, GX_REFUSED, -1,

@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the fields reconstructed from particles take over from them: values, symmetry at fixed ends, and how many particles and of
+ * which kind they need. Momentum, mirrors, translations and order of particles are seen to in test_symmetries. */
+#include <gsl/gsl_errno.h>
+
+#include "check.h"
+#include "rig.h"
+#include "spaces/mesh.h"
+#include "spaces/spline_fit.h"
+
+enum { N = 24 };
+
+/* Uneven, in no order: particle p is in place 7 p of N. */
+static void scatter_particles(double *X)
+{
+  uint64_t seed = 5;
+  for (int p = 0; p < N; p++) X[7 * p % N] = (p + check_random(&seed, 0.1, 0.9)) / N;
+}
+
+static struct gx_fit *fit_through(double *X, int degree, bool periodic, size_t points, const double *point)
+{
+  struct gx_outcome outcome;
+  struct gx_fit *fit = NULL;
+  assert_int_equal(gx_spline_fit_create(&fit, degree, periodic, N, X, points, point, &outcome), GX_OK);
+  assert_int_equal(fit->kind->place(fit, (const double *[]){X}), GX_OK);
+  return fit;
+}
+
+/* At the particles the field has their values; an uniform one is uniform everywhere. */
+static void fields_pass_through_the_particles(void **state)
+{
+  (void)state;
+  double X[N], sorted[N], value[N], one[N], out[N], *in = value, *to = out;
+  scatter_particles(X);
+  for (int p = 0; p < N; p++) {
+    sorted[p] = X[7 * p % N];
+    value[7 * p % N] = sin(9 * sorted[p]) + p % 3;
+    one[p] = 1.5;
+  }
+  for (int periodic = 0; periodic < 2; periodic++)
+    for (int degree = 1; degree <= GX_MAX_DEGREE; degree++)
+      for (int odd = 0; odd < 2; odd++) {
+        struct gx_fit *fit = fit_through(X, degree, periodic, N, sorted);
+        in = value;
+        fit->kind->take(fit, 1, odd, &in, &to);
+        for (int p = 0; p < N; p++) NEAR(out[p], value[7 * p % N], 1e-10);
+        in = one;
+        fit->kind->take(fit, 1, false, &in, &to);
+        for (int p = 0; p < N; p++) NEAR(out[p], 1.5, 1e-13);
+        fit->kind->free(fit);
+      }
+}
+
+/* Fields that are odd and even at the ends, of 24 particles a wave: degree 5 errs by (2 pi / 24)^6 / 100 or so. */
+static void ends_are_respected(void **state)
+{
+  (void)state;
+  const double at[4] = {0, 0.01, 0.5, 1};
+  double X[N], odd[N], even[N], out[4], *in = odd, *to = out;
+  for (int p = 0; p < N; p++) {
+    X[p] = (p + 0.5) / N;
+    odd[p] = sin(2 * M_PI * X[p]);
+    even[p] = cos(2 * M_PI * X[p]);
+  }
+  struct gx_fit *fit = fit_through(X, 3, false, 4, at);
+  fit->kind->take(fit, 1, true, &in, &to);
+  NEAR(out[0], 0, 1e-15);
+  NEAR(out[3], 0, 1e-15);
+  for (int i = 0; i < 4; i++) NEAR(out[i], sin(2 * M_PI * at[i]), 2e-6);
+  in = even;
+  fit->kind->take(fit, 1, false, &in, &to);
+  for (int i = 0; i < 4; i++) NEAR(out[i], cos(2 * M_PI * at[i]), 2e-6);
+  fit->kind->free(fit);
+}
+
+/* Mass of the nodes through a deformed bar: right to the order of the quadrature, 2 (degree + 1). */
+static void mass_of_the_nodes_converges(void **state)
+{
+  (void)state;
+  static const char *const cells[] = {"8", "16"};
+  for (int fixed = 0; fixed < 2; fixed++) {
+    double error[2];
+    for (int k = 0; k < 2; k++) {
+      struct gx_case one = case_draft("method.quadrature=reconstructed", "method.degree=2");
+      case_set(&one, GX_PROBLEM_BOUNDARY, fixed ? "fixed" : "periodic");
+      case_set(&one, GX_MESH_CELLS, cells[k]);
+      gx_parameter_resolve(one.value);
+      struct rig rig;
+      rig_build(&rig, &one, NULL, NULL, NULL);
+      const struct gx_mesh *mesh = (const struct gx_mesh *)rig.simulation.space;
+      double mass = 0;
+      for (size_t i = 0; i < mesh->grid.stored; i++) mass += mesh->mass[i];
+      error[k] = fabs(mass - 1);
+      rig_free(&rig);
+    }
+    CHECK(error[0] < 1e-4 && error[1] < error[0] / 16, "%s: total mass off by %g, %g", fixed ? "fixed" : "periodic", error[0],
+          error[1]);
+  }
+}
+
+static enum gx_status status_of(const char *const *set, const char *reason)
+{
+  struct gx_case one = case_begin(set);
+  gx_parameter_resolve(one.value);
+  struct gx_result result = gx_case_run(&one);
+  gx_case_free(&result);
+  CHECK(strstr(result.outcome.reason, reason), "%s", result.outcome.reason);
+  return result.outcome.status;
+}
+
+#define STATUS(reason, ...) status_of((const char *const[]){"method.quadrature=reconstructed", __VA_ARGS__, NULL}, reason)
+
+static void what_it_cannot_do_is_refused_with_the_reason(void **state)
+{
+  (void)state;
+  assert_int_equal(STATUS("need 6 particles or more", "mesh.cells=4", "mesh.particles_per_cell=1", "method.degree=3"),
+                   GX_REFUSED);
+  assert_int_equal(STATUS("one dimension", "problem.name=axis-aligned", "problem.dimension=2", "mesh.cells=4"), GX_REFUSED);
+  assert_int_equal(STATUS("met or passed", "problem.name=bar-linear", "problem.amplitude=0.15", "problem.modulus=16",
+                          "method.position=particle", "mesh.cells=8", "time.periods=20"),
+                   GX_TANGLED);
+}
+
+int main(void)
+{
+  gsl_set_error_handler_off();
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(fields_pass_through_the_particles),
+      cmocka_unit_test(ends_are_respected),
+      cmocka_unit_test(mass_of_the_nodes_converges),
+      cmocka_unit_test(what_it_cannot_do_is_refused_with_the_reason),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
