@@ -69,11 +69,11 @@ static void list_problems(void)
 {
   for (const struct gx_problem *const *p = gx_problem_family; *p; p++) {
     char facts[128];
-    snprintf(facts, sizeof facts, "(material %s, 1%s dimension%s)", (*p)->material->name,
-             (*p)->max_dim == 3   ? " to 3"
-             : (*p)->max_dim == 2 ? " to 2"
-                                  : "",
-             (*p)->max_dim > 1 ? "s" : "");
+    const int least = (*p)->min_dim ? (*p)->min_dim : 1, most = (*p)->max_dim;
+    if (least < most)
+      snprintf(facts, sizeof facts, "(material %s, %d to %d dimensions)", (*p)->material->name, least, most);
+    else
+      snprintf(facts, sizeof facts, "(material %s, %d dimension%s)", (*p)->material->name, most, most > 1 ? "s" : "");
     print_method((*p)->name, facts, (*p)->help, (*p)->source);
   }
 }

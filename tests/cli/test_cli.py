@@ -63,7 +63,10 @@ class Help(Case):
         self.assertIn("mesh.cells", self.call("list", "parameters").stdout)
 
     def test_starter_is_a_run_file(self):
-        problems = [line.split()[0] for line in self.call("list", "problems").stdout.splitlines() if line[0] != " "]
+        lines = [line for line in self.call("list", "problems").stdout.splitlines() if line[0] != " "]
+        for name, dimensions in {"bar-linear": "1 dimension", "axis-aligned": "1 to 3 dimensions", "cantilever": "2 to 3 dimensions"}.items():
+            self.assertTrue(any(line.startswith(name + " ") and line.endswith(f", {dimensions})") for line in lines), name)
+        problems = [line.split()[0] for line in lines]
         self.assertIn("bar-linear", problems)
         for problem in problems:
             starter = self.call("init", problem)
