@@ -65,7 +65,7 @@ struct gx_problem {
   const char *const *standard; /* defaults of its own, "mesh.cells=20", NULL-ended; NULL: the parameter table's */
   /* which problem.* and body.* parameters apply */
   bool has_amplitude, has_mode, has_directions, has_poisson, has_interpolation_error, has_knots, has_jump, has_body, has_flight,
-      has_rotation, has_gravity;
+      has_spin, has_rotation, has_gravity;
   unsigned boundaries;       /* bit b: admits boundary b; 0: has no ends */
   enum gx_boundary boundary; /* the default */
   bool waves;                /* sin(2 pi m X) is what it is about: posed with tables of it, a frequency can be fitted */

@@ -61,6 +61,7 @@ const struct gx_problem gx_free_flight = {
     .has_poisson = true,
     .has_body = true,
     .has_flight = true,
+    .has_spin = true,
     .boundaries = 1u << GX_BOUNDARY_PERIODIC | 1u << GX_BOUNDARY_FREE,
     .boundary = GX_BOUNDARY_PERIODIC,
     .end = 1,

@@ -222,6 +222,21 @@ void gx_affine_scatter(struct gx_mesh *mesh, double *const *momentum)
   gx_transfer_scatter_force(&affine->weights, affine->T, NULL, momentum);
 }
 
+/* B += v (sum_i w g_i - x)^T: particles that started from u_p and not from sum_i w u_i keep that distance from their nodes. */
+static void add_distance(struct gx_mesh *mesh, double ahead, double *const *B)
+{
+  struct gx_affine *affine = mesh->affine;
+  const struct gx_particles *particles = mesh->space.particles;
+  const int dim = mesh->grid.dim;
+  const size_t n = particles->n;
+  gx_transfer_gather(&mesh->blocks.whole, mesh->u, affine->shift);
+  gx_transfer_gather(&mesh->blocks.whole, mesh->a, affine->value);
+  for (int a = 0; a < dim; a++)
+    for (int b = 0; b < dim; b++)
+      for (size_t p = 0; p < n; p++)
+        B[a * dim + b][p] += (particles->v[a][p] + ahead * affine->value[a][p]) * (affine->shift[b][p] - particles->u[b][p]);
+}
+
 void gx_affine_spin(struct gx_space *space, double ahead, double *spin)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
@@ -236,6 +251,7 @@ void gx_affine_spin(struct gx_space *space, double ahead, double *spin)
   for (int k = 0; k < dim * dim; k++)
     for (size_t p = 0; p < n; p++) B[k][p] = affine->state[k][p] + ahead * B[k][p];
   if (affine->gradient) multiply_right(dim, n, false, affine->spread, B);
+  if (affine->moves) add_distance(mesh, ahead, B);
   for (int d = 0; d < dim; d++) /* sum w m (g - x)_d v_e, as in gx_momentum_of */
     for (int e = 0; e < dim; e++)
       if (e != d) spin[3 - d - e] += ((e - d + 3) % 3 == 1 ? 1 : -1) * gx_vector_dot(n, space->particles->m, B[e * dim + d]);

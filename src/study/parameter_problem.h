@@ -140,7 +140,7 @@
                          RANGE(-INFINITY, INFINITY),
                          .standard = "0",
                          .applies = gx_rules_spin_applies,
-                         .help = "angular velocity about the body's centre, in 3-D about z; free-flight in 2-D and 3-D",
+                         .help = "angular velocity about the body's centre, in 3-D about z; bodies that spin, in 2-D and 3-D",
                          .why = "0: a pure translation"},
     [GX_PROBLEM_ROTATION] = {.path = "problem.rotation",
                              .type = GX_REAL,

@@ -144,7 +144,7 @@ bool gx_rules_flight_applies(const struct gx_value *value)
 
 bool gx_rules_spin_applies(const struct gx_value *value)
 {
-  return problem_of(value)->has_flight && value[GX_PROBLEM_DIMENSION].integer > 1;
+  return problem_of(value)->has_spin && value[GX_PROBLEM_DIMENSION].integer > 1;
 }
 
 bool gx_rules_rotation_applies(const struct gx_value *value)

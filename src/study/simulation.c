@@ -303,13 +303,33 @@ void gx_simulation_free(struct gx_simulation *simulation)
   gx_particles_free(simulation->particles);
 }
 
+/* Whether nothing of a body on a periodic grid meets functions that its images meet, however it turns: by its diagonal. */
+static bool stands_apart(const struct gx_simulation *simulation)
+{
+  const struct gx_space_options *options = &simulation->space_options;
+  const struct gx_particles *particles = simulation->particles;
+  int support = options->basis && options->basis->has_degree ? options->degree + 1 : 3;
+  double square = 0, h = 0;
+  for (int d = 0; d < particles->dim; d++) {
+    double low = INFINITY, high = -INFINITY;
+    for (size_t p = 0; p < particles->n; p++) {
+      double x = particles->X[d][p] + particles->u[d][p];
+      low = fmin(low, x);
+      high = fmax(high, x);
+    }
+    square += (high - low) * (high - low);
+    h = fmax(h, 1.0 / options->cells[d]);
+  }
+  return sqrt(square) + support * h <= 1;
+}
+
 void gx_simulation_conserves(const struct gx_simulation *simulation, bool *linear, bool *angular)
 {
   const struct gx_space_options *options = &simulation->space_options;
   *linear = !simulation->problem->body && !simulation->problem->space;
   for (int d = 0; d < GX_MAX_DIM; d++)
     if (!options->periodic && (options->held[d][0] || options->held[d][1])) *linear = false;
-  *angular = *linear && simulation->problem_options.dim > 1 && !options->periodic;
+  *angular = *linear && simulation->problem_options.dim > 1 && (!options->periodic || stands_apart(simulation));
 }
 
 enum { SAMPLES = 8 }; /* a standing wave peaks at quarters of its period, what has no period at the end */

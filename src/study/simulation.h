@@ -34,8 +34,8 @@ enum gx_status gx_simulation_pose(struct gx_simulation *simulation, struct gx_ou
 /* The space. Without exact solution a staggered clock's velocity starts half a kick back: as after a kick by -dt/2. */
 enum gx_status gx_simulation_open(struct gx_simulation *simulation, struct gx_outcome *outcome);
 void gx_simulation_free(struct gx_simulation *simulation);
-/* Whether the problem itself keeps linear, and angular, momentum: no body force, nothing held, and for angular momentum no
- * periodic images that pull at the body's ends. */
+/* Whether the problem itself keeps linear, and angular, momentum: no body force, nothing held, and for angular momentum no periodic
+ * image of the body within reach of a basis function, however the body of the start turns. Of a simulation that was built. */
 void gx_simulation_conserves(const struct gx_simulation *simulation, bool *linear, bool *angular);
 /* Largest kinetic energy of the exact solution over a period, or up to the end where there is none, sampled. Without exact
  * solution: the energy at the start, kinetic and elastic, and what the body force, sampled likewise, can add to it: its work over

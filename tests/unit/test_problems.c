@@ -289,6 +289,37 @@ static void the_external_acceleration_is_a_quadrature_error(void **state)
   NEAR(gx_quadrature_model_acceleration(&corrected, 0.95), 2 * 1.5 * 0.075 + 2 * (5.0 / 6 - 0.825), 1e-15);
 }
 
+/* The start of a problem without exact solution: F belongs to u, and spin to x. */
+static void a_spinning_block_starts_as_it_says(void **state)
+{
+  (void)state;
+  const struct gx_problem *problem = gx_problem_find("spinning-block");
+  const double step = 1e-5;
+  for (int dim = 2; dim <= 3; dim++) {
+    struct gx_problem_options options = options_of(problem, dim, 7);
+    for (int d = 0; d < dim; d++) options.body.size[d] = 0.5 + 0.1 * d;
+    struct gx_posed *posed = pose(problem, &options, 0, 0);
+    struct field u, v, F, low, high, unused, other;
+    problem->initial(posed, of(&u), of(&v), of(&F));
+    for (int e = 0; e < dim; e++) {
+      struct gx_posed *below = pose(problem, &options, e, -step), *above = pose(problem, &options, e, step);
+      problem->initial(below, of(&low), of(&unused), of(&other));
+      problem->initial(above, of(&high), of(&unused), of(&other));
+      for (int d = 0; d < dim; d++)
+        for (int p = 0; p < N; p++)
+          NEAR(F.store[d * dim + e][p], (d == e) + (high.store[d][p] - low.store[d][p]) / (2 * step), 1e-8);
+      gx_problem_free(below);
+      gx_problem_free(above);
+    }
+    for (int p = 0; p < N; p++) {
+      NEAR(v.store[0][p], -2.3 * (posed->X[1][p] + u.store[1][p] - 0.5), 1e-14);
+      NEAR(v.store[1][p], 2.3 * (posed->X[0][p] + u.store[0][p] - 0.4), 1e-14);
+      if (dim == 3) NEAR(v.store[2][p], 0, 0);
+    }
+    gx_problem_free(posed);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -300,6 +331,7 @@ int main(void)
       cmocka_unit_test(a_carried_particle_has_the_velocity_of_its_place),
       cmocka_unit_test(a_knot_is_met_half_way),
       cmocka_unit_test(the_external_acceleration_is_a_quadrature_error),
+      cmocka_unit_test(a_spinning_block_starts_as_it_says),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
