@@ -59,8 +59,9 @@ struct gx_result {
   long probe;                                /* index of the particle followed; -1: none */
   double reference[GX_QUANTITIES][GX_NORMS]; /* final state less that of dt / output.reference; NaN: not asked */
   struct gx_budget_values budget;            /* over the steps that output.budget names; NaN: not asked */
-  double seconds;              /* processor time of the steps, all threads, less that of the measures between them */
-  double ns_per_particle_step; /* NaN: no step was taken */
+  double
+      seconds; /* processor time of the steps, all threads, less that of the measures between them; NaN: lost in the noise of those */
+  double ns_per_particle_step; /* NaN: no step was taken, or no seconds */
   struct gx_history history;
   struct gx_spectra spectra;
   struct gx_vibration vibration; /* of the driven mode; NaN: not asked for, or none */

@@ -312,7 +312,8 @@ static enum gx_status march(struct run *run)
   struct gx_result *result = run->result;
   double before = seconds_now(run);
   enum gx_status status = take_steps(run);
-  result->seconds = seconds_now(run) - before - measuring_seconds(run);
+  const double spent = seconds_now(run) - before - measuring_seconds(run);
+  result->seconds = spent > 0 ? spent : NAN;
   if (result->steps > 0)
     result->ns_per_particle_step = 1e9 * result->seconds / (result->steps * (double)run->simulation.particles->n);
   return status;

@@ -15,6 +15,7 @@ static void check_finite(const struct gx_result *result, const char *what)
             most);
     }
   assert_true(isfinite(result->measured.drift) && isfinite(result->measured.max_defect));
+  assert_false(result->seconds <= 0 || result->ns_per_particle_step <= 0); /* too few steps to tell: not a number */
 }
 
 static void every_method_ends_well(void **state)
