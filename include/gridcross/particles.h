@@ -44,6 +44,18 @@ struct gx_particles *gx_particles_fill(int dim, const int *cells, int per_cell, 
 /* Gauss points of the cells as particles of density 1, V0 their weights, with domains so narrow that functions averaged over them are
  * what they average. */
 struct gx_particles *gx_particles_points(int dim, const int *cells, int per_cell);
+
+/* A list of particles; all owned by whoever made it. */
+struct gx_points {
+  char *path; /* where they were read */
+  int dim;
+  size_t n;
+  double *X[GX_MAX_DIM]; /* [n] reference position, m */
+  double *V0;            /* [n] reference volume, m^dim */
+};
+
+/* The same of a list; their domains are cubes of their volumes. */
+struct gx_particles *gx_particles_list(const struct gx_points *points, double density);
 /* A copy with its own memory; NULL when that runs out. */
 struct gx_particles *gx_particles_copy(const struct gx_particles *particles);
 void gx_particles_free(struct gx_particles *particles);

@@ -13,11 +13,11 @@
 enum gx_boundary { GX_BOUNDARY_PERIODIC, GX_BOUNDARY_FIXED, GX_BOUNDARY_CLAMPED, GX_BOUNDARY_FREE, GX_BOUNDARIES };
 extern const char *const gx_problem_boundary[GX_BOUNDARIES + 1]; /* names, NULL-ended */
 
-enum gx_shape { GX_SHAPE_BOX, GX_SHAPE_DISK, GX_SHAPE_RING };
+enum gx_shape { GX_SHAPE_BOX, GX_SHAPE_DISK, GX_SHAPE_RING, GX_SHAPE_POINTS };
 
 /* A body that a run file describes. In 1-D a disk is an interval, in 3-D a ball, a ring a shell. */
 struct gx_body {
-  enum gx_shape shape;
+  enum gx_shape shape; /* points: the particles are given, not filled in */
   double centre[GX_MAX_DIM];
   double size[GX_MAX_DIM];     /* edges of a box, m */
   double radius, inner_radius; /* m */
@@ -76,6 +76,8 @@ struct gx_problem {
   enum gx_status (*check)(const struct gx_problem_options *options, struct gx_outcome *outcome);
   /* Whether a reference point belongs to the body; NULL: the body fills the domain. */
   bool (*inside)(const struct gx_problem_options *options, const double *X);
+  /* Of two bodies: whether a reference point is of the second; NULL: there is one. */
+  bool (*second)(const struct gx_problem_options *options, const double *X);
   /* Exact displacement, velocity, deformation gradient and acceleration d2u/dt2 (m/s^2, [dim][n]) at time t; any output may be
    * NULL. Arrays as in gx_particles. NULL: unknown, then `initial` gives the state at t = 0. */
   void (*exact)(const struct gx_posed *posed, double t, double *const *u, double *const *v, double *const *F, double *const *a);

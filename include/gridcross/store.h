@@ -35,6 +35,9 @@ struct gx_table *gx_hdf5_read_history(const char *path, const char *id, const ch
 /* A case's spectra as gx_study_table_spectra gives them; NULL after a message. */
 struct gx_table *gx_hdf5_read_spectra(const char *path, const char *id, FILE *errors);
 
+/* For gx_runfile_read. */
+extern const struct gx_array_reader gx_hdf5_arrays;
+
 /* Makes the directory where needed, and checks that a study may be written there: it is empty or holds a study, and is
  * writable. */
 int gx_store_prepare(const char *directory, FILE *errors);

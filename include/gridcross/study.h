@@ -18,6 +18,15 @@ enum { GX_ID_LENGTH = 17 };
 struct gx_case {
   char id[GX_ID_LENGTH];                /* hash of the resolved parameters, 16 hexadecimal digits */
   struct gx_value value[GX_PARAMETERS]; /* resolved; texts owned by the study */
+  const struct gx_points *points;       /* of body.file, owned by the study; NULL: none */
+};
+
+/* Reads arrays of numbers from a file, for those who must not know its format. */
+struct gx_array_reader {
+  /* array: [count] <- what name[i] holds, [rows], owned by the caller, also when it fails; NULL where it is not there. All have as
+   * many rows, at most `most`. absent: NULL-ended, names that must not be there. Returns 0, or -1 after messages. */
+  int (*read)(const char *path, size_t count, const char *const *name, const char *const *absent, size_t most, double **array,
+              size_t *rows, FILE *errors);
 };
 
 struct gx_study {
@@ -31,11 +40,15 @@ struct gx_study {
   size_t axes;
   char **texts; /* texts that values point to, owned */
   size_t text_count;
+  struct gx_points **points; /* [point_lists] that cases take their particles from, owned */
+  size_t point_lists;
 };
 
-/* Reads a run file ("-": standard input), applies `--set` strings "path=value" in order, validates and expands.
+/* Reads a run file ("-": standard input) and the lists of points that it names, applies `--set` strings "path=value" in order,
+ * validates and expands. hdf5: reads lists that are HDF5 files; NULL: they are refused.
  * Every error goes to `errors` in one pass as file:line:column: message. Returns NULL when there was one. */
-struct gx_study *gx_runfile_read(const char *path, size_t sets, const char *const *set, FILE *errors);
+struct gx_study *gx_runfile_read(const char *path, size_t sets, const char *const *set, const struct gx_array_reader *hdf5,
+                                 FILE *errors);
 /* The same of a text; name: what messages call it. */
 struct gx_study *gx_runfile_parse(const char *name, const char *text, FILE *errors);
 void gx_runfile_free(struct gx_study *study);
@@ -57,6 +70,7 @@ struct gx_result {
   double stable_dt; /* s, estimated at the start; 0: no step is stable; NaN: unknown */
   struct gx_measured measured;
   long probe;                                /* index of the particle followed; -1: none */
+  double restitution;                        /* of two bodies that have parted; NaN: not so */
   double reference[GX_QUANTITIES][GX_NORMS]; /* final state less that of dt / output.reference; NaN: not asked */
   struct gx_budget_values budget;            /* over the steps that output.budget names; NaN: not asked */
   double

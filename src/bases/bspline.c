@@ -78,7 +78,7 @@ GX_CORE void periodic_points(const int degree, const struct gx_axis *axis, size_
     double s = gx_locate(true, cells, x[p]);
     int cell = gx_locate_cell(cells, s);
     double value[GX_MAX_SUPPORT], slope[GX_MAX_SUPPORT];
-    uniform_cell(degree, s - cell, value, slope);
+    uniform_cell(degree, degree > 1 ? s - cell : gx_locate_share(s - cell), value, slope);
     first[p] = cell;
     for (int k = 0; k <= degree; k++) {
       S[k * n + p] = value[k];
@@ -96,7 +96,7 @@ GX_CORE void bounded_points(const int degree, const struct gx_axis *axis, size_t
     int cell = gx_locate_cell(cells, s);
     double value[GX_MAX_SUPPORT], slope[GX_MAX_SUPPORT];
     if (cell >= degree - 1 && cell <= cells - degree)
-      uniform_cell(degree, s - cell, value, slope);
+      uniform_cell(degree, degree > 1 ? s - cell : gx_locate_share(s - cell), value, slope);
     else
       open_cell(degree, cells, cell, s, value, slope);
     first[p] = cell;

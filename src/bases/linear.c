@@ -28,7 +28,7 @@ GX_CLONES static long evaluate(const struct gx_axis *axis, size_t n, const doubl
   for (size_t p = 0; p < n; p++) {
     double s = gx_locate(periodic, cells, x[p]);
     int cell = gx_locate_cell(cells, s);
-    double r = s - cell;
+    double r = gx_locate_share(s - cell);
     first[p] = cell;
     S[p] = 1 - r;
     S[n + p] = r;

@@ -19,4 +19,12 @@ static inline int gx_locate_cell(int cells, double s)
   return c < cells ? c : cells - 1;
 }
 
+/* Place in a cell where functions are hats, within (0, 1). On a face of a cell a hat has a slope and no value, so that a node at the
+ * edge of a body would have a slope to give and no mass to have a velocity: a share of 2^-60 gives it that of the particle. */
+static inline double gx_locate_share(double r)
+{
+  r = r > 0x1p-60 ? r : 0x1p-60;
+  return r < 1 - 0x1p-53 ? r : 1 - 0x1p-53;
+}
+
 #endif

@@ -24,7 +24,7 @@ struct gx_study *gx_command_read(const struct gx_options *options)
     return NULL;
   }
   size_t sets = gx_options_values(options, "set", set);
-  struct gx_study *study = gx_runfile_read(options->operand[0], sets, set, stderr);
+  struct gx_study *study = gx_runfile_read(options->operand[0], sets, set, &gx_hdf5_arrays, stderr);
   free(set);
   return study;
 }

@@ -2,6 +2,7 @@
 /* Allocation of the particle store and the initial layouts of particles in cells. */
 #include <gridcross/particles.h>
 
+#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -153,6 +154,20 @@ struct gx_particles *gx_particles_points(int dim, const int *cells, int per_cell
   for (int d = 0; points && d < dim; d++)
     for (size_t q = 0; q < points->n; q++) points->half_length[d][q] *= 1e-12;
   return points;
+}
+
+struct gx_particles *gx_particles_list(const struct gx_points *points, double density)
+{
+  struct gx_particles *particles = allocate(points->dim, points->n);
+  for (size_t p = 0; particles && p < points->n; p++) {
+    double X[GX_MAX_DIM], length[GX_MAX_DIM];
+    for (int d = 0; d < points->dim; d++) {
+      X[d] = points->X[d][p];
+      length[d] = pow(points->V0[p], 1.0 / points->dim);
+    }
+    put(particles, p, X, length, points->V0[p], density);
+  }
+  return particles;
 }
 
 struct gx_particles *gx_particles_copy(const struct gx_particles *particles)

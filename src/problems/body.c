@@ -24,6 +24,7 @@ bool gx_body_inside(const struct gx_problem_options *options, const double *X)
 enum gx_status gx_body_check(const struct gx_problem_options *options, struct gx_outcome *outcome)
 {
   const struct gx_body *body = &options->body;
+  if (body->shape == GX_SHAPE_POINTS) return GX_OK;
   if (body->shape == GX_SHAPE_RING && body->inner_radius >= body->radius)
     return gx_status_set(outcome, GX_REFUSED, -1,
                          "a ring of inner radius %g m and radius %g m is empty: give a smaller inner one", body->inner_radius,

@@ -19,6 +19,19 @@ struct moving_mesh {
   double accelerated; /* s, when the lattice last was */
 };
 
+/* A hat has a slope where it has no value: a node that only particles on a face of its cells touch would strain them, freely. */
+static enum gx_status check_hats(struct gx_mesh *mesh)
+{
+  double largest = 0;
+  for (size_t i = 0; i < mesh->grid.stored; i++) largest = mesh->mass[i] > largest ? mesh->mass[i] : largest;
+  for (size_t i = 0; i < mesh->grid.stored && mesh->grid.axis[0].support == 2; i++)
+    if (mesh->mass[i] > 0 && mesh->mass[i] < 1e-12 * largest)
+      return gx_status_set(mesh->space.outcome, GX_SINGULAR, -1,
+                           "a node has next to no mass, since particles at the edge of the body lie on faces of cells: move the "
+                           "body, or use a basis without kinks there, such as bspline of degree 2");
+  return GX_OK;
+}
+
 static enum gx_status create(const struct gx_space_kind *kind, struct gx_space **space, const struct gx_space_options *options,
                              struct gx_particles *particles, const struct gx_posed *posed, struct gx_outcome *outcome)
 {
@@ -28,6 +41,7 @@ static enum gx_status create(const struct gx_space_kind *kind, struct gx_space *
   posed->problem->material->piola(&posed->options.moduli, particles->dim, particles->n, particles->F, particles->P);
   GX_TRY(gx_mesh_weigh(mesh, NULL, NULL));
   GX_TRY(gx_mesh_assemble(mesh, particles->u, mesh->u));
+  GX_TRY(check_hats(mesh));
   GX_TRY(gx_mesh_project(mesh, particles->v, mesh->v));
   if (mesh->affine) gx_affine_gather(mesh);
   if (!options->reconstructed) mesh->lattice = gx_lattice_create(&mesh->grid, options->basis, particles, options->team);

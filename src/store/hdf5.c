@@ -3,7 +3,6 @@
 #include <gridcross/store.h>
 
 #include <errno.h>
-#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,10 +12,9 @@
 #include <gridcross/build.h>
 
 #include "../core/nearest.h"
+#include "entry.h"
 
 enum { FORMAT = 1, NAME = 256 };
-
-static const int64_t null_integer = INT64_MIN;
 
 /* HDF5 prints its error stack by default; we print one message instead. */
 struct silence {
@@ -95,35 +93,17 @@ static hid_t make_dataset(hid_t group, const char *name, hid_t type, size_t rows
   return dataset;
 }
 
-/* Entries of a column as HDF5 takes them: double, int64_t or const char *, 8 bytes each. */
-union entry {
-  double real;
-  int64_t integer;
-  const char *text;
-};
-_Static_assert(sizeof(union entry) == sizeof(double) && sizeof(union entry) == sizeof(const char *), "entries are packed");
-
-static union entry to_entry(enum gx_type type, struct gx_value value)
-{
-  if (type == GX_REAL) {
-    double real = value.type == GX_INTEGER ? (double)value.integer : value.real;
-    return (union entry){.real = value.type == GX_NULL ? NAN : real};
-  }
-  if (type == GX_INTEGER) return (union entry){.integer = value.type == GX_NULL ? null_integer : value.integer};
-  return (union entry){.text = value.type == GX_NULL ? NULL : value.text};
-}
-
-static int put_column(hid_t group, const struct gx_table *table, size_t c, hid_t text, union entry *entry)
+static int put_column(hid_t group, const struct gx_table *table, size_t c, hid_t text, union gx_entry *entry)
 {
   const struct gx_column *column = &table->column[c];
   bool real = column->type == GX_REAL, integer = column->type == GX_INTEGER;
   hid_t file_type = real ? H5T_IEEE_F64LE : integer ? H5T_STD_I64LE : text;
   hid_t memory_type = real ? H5T_NATIVE_DOUBLE : integer ? H5T_NATIVE_INT64 : text;
-  for (size_t r = 0; r < table->rows; r++) entry[r] = to_entry(column->type, gx_table_get(table, r, c));
+  for (size_t r = 0; r < table->rows; r++) entry[r] = gx_entry_from(column->type, gx_table_get(table, r, c));
   hid_t dataset = make_dataset(group, column->name, file_type, table->rows);
   if (dataset < 0) return -1;
   int failed = put_text(dataset, "unit", column->unit);
-  if (!failed && integer) failed = put_integer(dataset, "null", null_integer);
+  if (!failed && integer) failed = put_integer(dataset, "null", gx_entry_null);
   if (!failed && H5Dwrite(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, entry) < 0) failed = -1;
   return H5Dclose(dataset) < 0 ? -1 : failed;
 }
@@ -131,7 +111,7 @@ static int put_column(hid_t group, const struct gx_table *table, size_t c, hid_t
 static int put_table(hid_t parent, const char *name, const struct gx_table *table)
 {
   int failed = -1;
-  union entry *entry = calloc(table->rows + 1, sizeof *entry);
+  union gx_entry *entry = calloc(table->rows + 1, sizeof *entry);
   hid_t text = text_type(), group = make_group(parent, name);
   if (entry && text >= 0 && group >= 0) failed = 0;
   for (size_t c = 0; c < table->columns && !failed; c++) failed = put_column(group, table, c, text, entry);
@@ -258,15 +238,6 @@ static int get_integer(hid_t object, const char *name, int64_t *value)
   return failed;
 }
 
-static struct gx_value from_entry(enum gx_type type, union entry entry)
-{
-  if (type == GX_REAL && !isnan(entry.real)) return (struct gx_value){.type = GX_REAL, .real = entry.real};
-  if (type == GX_INTEGER && entry.integer != null_integer)
-    return (struct gx_value){.type = GX_INTEGER, .integer = (long)entry.integer};
-  if (type == GX_TEXT && entry.text) return (struct gx_value){.type = GX_TEXT, .text = entry.text};
-  return (struct gx_value){.type = GX_NULL};
-}
-
 /* Number of rows and type of a dataset that can be a column, or -1. */
 static hssize_t column_shape(hid_t dataset, enum gx_type *type)
 {
@@ -288,12 +259,12 @@ static int get_column(hid_t dataset, const char *name, struct gx_table *table, s
   if (column_shape(dataset, &type) != (hssize_t)table->rows) return -1;
   int failed = -1;
   char *unit = get_text(dataset, "unit");
-  union entry *entry = calloc(table->rows + 1, sizeof *entry);
+  union gx_entry *entry = calloc(table->rows + 1, sizeof *entry);
   hid_t text = text_type(), space = H5Dget_space(dataset);
   hid_t memory_type = type == GX_REAL ? H5T_NATIVE_DOUBLE : type == GX_INTEGER ? H5T_NATIVE_INT64 : text;
   if (entry && text >= 0 && space >= 0 && H5Dread(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, entry) >= 0) {
     failed = gx_table_column(table, c, name, unit ? unit : "", type);
-    for (size_t r = 0; r < table->rows && !failed; r++) failed = gx_table_set(table, r, c, from_entry(type, entry[r]));
+    for (size_t r = 0; r < table->rows && !failed; r++) failed = gx_table_set(table, r, c, gx_entry_value(type, entry[r]));
     if (type == GX_TEXT) H5Dvlen_reclaim(text, space, H5P_DEFAULT, entry);
   }
   if (space >= 0) H5Sclose(space);
@@ -456,3 +427,57 @@ struct gx_table *gx_hdf5_read_spectra(const char *path, const char *id, FILE *er
   silence_end(old);
   return table;
 }
+
+/* A dataset of numbers as doubles, owned by the caller; NULL: wrong says why. rows: 0 at first, then what each must have. */
+static double *get_numbers(hid_t dataset, size_t most, size_t *rows, const char **wrong)
+{
+  const double densest = 2000; /* bytes out of one that is stored: what claims more holds nothing */
+  enum gx_type type;
+  hssize_t count = column_shape(dataset, &type);
+  double *array = NULL;
+  *wrong = NULL;
+  if (count < 0 || type == GX_TEXT) *wrong = "is not one row of numbers";
+  if (!*wrong && count == 0) *wrong = "is empty";
+  if (!*wrong && (size_t)count > most) *wrong = "has more rows than can be taken";
+  if (!*wrong && densest * (double)H5Dget_storage_size(dataset) < (double)sizeof *array * (double)count)
+    *wrong = "claims more rows than the file holds";
+  if (!*wrong && *rows && *rows != (size_t)count) *wrong = "has another length than the datasets before it";
+  if (*wrong) return NULL;
+  *rows = (size_t)count;
+  array = malloc(*rows * sizeof *array);
+  if (array && H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, array) >= 0) return array;
+  *wrong = array ? "is damaged" : "is too large for the memory there is";
+  free(array);
+  return NULL;
+}
+
+static int complain(FILE *errors, const char *path, const char *dataset, const char *wrong)
+{
+  fprintf(errors, "%s: dataset '%s' %s\n", path, dataset, wrong);
+  return -1;
+}
+
+static int read_arrays(const char *path, size_t count, const char *const *name, const char *const *absent, size_t most,
+                       double **array, size_t *rows, FILE *errors)
+{
+  struct silence old = silence_begin();
+  hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+  int failed = file < 0 ? -1 : 0;
+  if (failed) fprintf(errors, "%s: is damaged or not an HDF5 file\n", path);
+  *rows = 0;
+  for (size_t i = 0; i < count && file >= 0; i++) {
+    const char *wrong = "is missing";
+    hid_t dataset = H5Lexists(file, name[i], H5P_DEFAULT) > 0 ? H5Dopen2(file, name[i], H5P_DEFAULT) : -1;
+    array[i] = dataset < 0 ? NULL : get_numbers(dataset, most, rows, &wrong);
+    if (!array[i]) failed = complain(errors, path, name[i], wrong);
+    if (dataset >= 0) H5Dclose(dataset);
+  }
+  for (; *absent && file >= 0; absent++)
+    if (H5Lexists(file, *absent, H5P_DEFAULT) > 0)
+      failed = complain(errors, path, *absent, "does not suit the dimension; remove it, or set problem.dimension");
+  if (file >= 0) H5Fclose(file);
+  silence_end(old);
+  return failed;
+}
+
+const struct gx_array_reader gx_hdf5_arrays = {.read = read_arrays};

@@ -11,6 +11,7 @@
 #include <gsl/gsl_statistics_double.h>
 
 #include "../core/team.h"
+#include "../measures/restitution.h"
 #include "simulation.h"
 #include "stability.h"
 
@@ -28,6 +29,7 @@ struct run {
   double frequency_every;
   double budget_every;
   struct gx_spectrum *spectrum;
+  struct gx_restitution *restitution; /* NULL: there are no two bodies */
   struct gx_frequency frequency;
   const char *accumulate; /* time.accumulate */
   double time, lost;      /* s; lost: what compensated summation carries */
@@ -159,6 +161,8 @@ static enum gx_status prepare(struct run *run, const struct gx_case *one, double
   if (run->budget_every > 0)
     GX_TRY(gx_budget_create(&run->budget, simulation->space, &simulation->space_options, simulation->clock, outcome));
   if (run->budget && simulation->jumps) gx_budget_jumps(run->budget);
+  if (simulation->problem->second && !(run->restitution = gx_restitution_create(simulation->space)))
+    return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the restitution");
   if (run->history_every > 0 || run->budget_every > 0) GX_TRY(prepare_history(run));
   if (run->spectra_every > 0) GX_TRY(prepare_spectra(run));
   run->frequency.interval = run->frequency_every * simulation->dt;
@@ -325,6 +329,7 @@ static void finish(struct run *run)
   gx_measure_free(run->measure);
   gx_spectrum_free(run->spectrum);
   gx_budget_free(run->budget);
+  gx_restitution_free(run->restitution);
   gx_simulation_free(&run->simulation);
 }
 
@@ -341,7 +346,8 @@ static double unprojected_drift(const struct gx_splitting *splitting)
 static bool is_worth_an_estimate(const struct gx_simulation *simulation)
 {
   const double blink = 1e7; /* particle evaluations: tenths of a second */
-  double particles = pow((double)simulation->space_options.cells[0] * simulation->per_cell, simulation->problem_options.dim);
+  double lattice = pow((double)simulation->space_options.cells[0] * simulation->per_cell, simulation->problem_options.dim);
+  double particles = simulation->points ? (double)simulation->points->n : lattice;
   return simulation->steps >= GX_STABILITY_EVALUATIONS || particles * GX_STABILITY_EVALUATIONS <= blink;
 }
 
@@ -407,6 +413,7 @@ struct gx_result gx_case_run_by(const struct gx_case *one, struct gx_team *team)
                              .dt = NAN,
                              .stable_dt = NAN,
                              .probe = -1,
+                             .restitution = NAN,
                              .ns_per_particle_step = NAN,
                              .vibration = {NAN, NAN}};
   for (int q = 0; q < GX_QUANTITIES; q++)
@@ -417,6 +424,7 @@ struct gx_result gx_case_run_by(const struct gx_case *one, struct gx_team *team)
     double refine = (double)one->value[GX_OUTPUT_REFERENCE].integer;
     bool done = march(&run) == GX_OK;
     result.measured = *gx_measure_result(run.measure);
+    if (run.restitution) result.restitution = gx_restitution_value(run.restitution);
     if (run.budget) result.budget = gx_budget_mean(run.budget);
     result.frequency = run.simulation.frequency;
     result.kh = 2 * M_PI * run.simulation.problem_options.mode / run.simulation.space_options.cells[0];

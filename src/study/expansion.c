@@ -210,6 +210,7 @@ static bool keep(struct expansion *expansion, const struct gx_value *value)
   struct gx_case *one = &study->cases[study->count];
   snprintf(one->id, sizeof one->id, "%016" PRIx64, hash);
   memcpy(one->value, value, sizeof one->value);
+  one->points = NULL;
   expansion->hash[study->count] = hash;
   expansion->slot[s] = ++study->count;
   return true;

@@ -52,7 +52,7 @@ const char *gx_rules_space_choice(int i)
     static const char *const texts[] = {__VA_ARGS__, NULL};                                                                      \
     return texts[i];                                                                                                             \
   }
-CHOICE(gx_rules_shape_choice, "box", "disk", "ring")
+CHOICE(gx_rules_shape_choice, "box", "disk", "ring", "points")
 CHOICE(gx_rules_variant_choice, "printed", "corrected")
 CHOICE(gx_rules_layout_choice, "uniform", "gauss")
 CHOICE(gx_rules_mass_choice, "lumped", "consistent")
@@ -167,6 +167,11 @@ static bool has_shape(const struct gx_value *value, const char *shape)
   return problem_of(value)->has_body && is_text(value[GX_BODY_SHAPE], shape);
 }
 
+bool gx_rules_file_applies(const struct gx_value *value)
+{
+  return has_shape(value, "points");
+}
+
 bool gx_rules_size_applies(const struct gx_value *value)
 {
   return has_shape(value, "box");
@@ -180,6 +185,12 @@ bool gx_rules_radius_applies(const struct gx_value *value)
 bool gx_rules_inner_radius_applies(const struct gx_value *value)
 {
   return has_shape(value, "ring");
+}
+
+/* A list of particles needs no lattice. */
+bool gx_rules_lattice_applies(const struct gx_value *value)
+{
+  return gx_rules_is_continuum(value) && !has_shape(value, "points");
 }
 
 bool gx_rules_mode_applies(const struct gx_value *value)
@@ -258,6 +269,11 @@ VECTOR(gx_rules_phases_default, "0", "0", "0")
 VECTOR(gx_rules_velocity_default, "1", "0.5", "0.25")
 VECTOR(gx_rules_centre_default, "0.5", "0.5", "0.5")
 VECTOR(gx_rules_size_default, "0.5", "0.5", "0.5")
+
+struct gx_value gx_rules_shape_default(const struct gx_value *value)
+{
+  return text_value(value[GX_BODY_FILE].type == GX_TEXT ? "points" : "box");
+}
 
 struct gx_value gx_rules_degree_default(const struct gx_value *value)
 {

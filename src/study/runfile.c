@@ -8,6 +8,7 @@
 
 #include "expansion.h"
 #include "layers.h"
+#include "points.h"
 
 enum { LARGEST = 4 << 20, CHUNK = 1 << 16 };
 
@@ -72,7 +73,7 @@ static void read_study(struct gx_settings *settings, size_t length, size_t sets,
 
 /* source: owned, NULL when reading it has failed. */
 static struct gx_study *read_text(const char *name, char *source, size_t length, size_t sets, const char *const *set,
-                                  struct gx_errors *errors, FILE *out)
+                                  const struct gx_array_reader *hdf5, struct gx_errors *errors, FILE *out)
 {
   struct gx_study *study = calloc(1, sizeof *study);
   if (study) {
@@ -86,21 +87,22 @@ static struct gx_study *read_text(const char *name, char *source, size_t length,
     errors->out_of_memory = true;
     free(source);
   }
-  if (errors->count || errors->out_of_memory) {
-    gx_errors_print(errors, name, set, out);
-    gx_runfile_free(study);
-    study = NULL;
-  }
+  bool bad = errors->count || errors->out_of_memory;
+  if (bad) gx_errors_print(errors, name, set, out);
   gx_errors_free(errors);
-  return study;
+  if (study && gx_points_read(study, name, hdf5, out)) bad = true;
+  if (!bad) return study;
+  gx_runfile_free(study);
+  return NULL;
 }
 
-struct gx_study *gx_runfile_read(const char *path, size_t sets, const char *const *set, FILE *out)
+struct gx_study *gx_runfile_read(const char *path, size_t sets, const char *const *set, const struct gx_array_reader *hdf5,
+                                 FILE *out)
 {
   struct gx_errors errors = {.count = 0};
   size_t length = 0;
   char *source = read_source(path, &errors, &length);
-  return read_text(strcmp(path, "-") ? path : "<stdin>", source, length, sets, set, &errors, out);
+  return read_text(strcmp(path, "-") ? path : "<stdin>", source, length, sets, set, hdf5, &errors, out);
 }
 
 struct gx_study *gx_runfile_parse(const char *name, const char *text, FILE *out)
@@ -108,7 +110,7 @@ struct gx_study *gx_runfile_parse(const char *name, const char *text, FILE *out)
   struct gx_errors errors = {.count = 0};
   char *source = strdup(text);
   errors.out_of_memory = !source;
-  return read_text(name, source, strlen(text), 0, NULL, &errors, out);
+  return read_text(name, source, strlen(text), 0, NULL, NULL, &errors, out);
 }
 
 void gx_runfile_free(struct gx_study *study)
@@ -116,6 +118,8 @@ void gx_runfile_free(struct gx_study *study)
   if (!study) return;
   for (size_t i = 0; i < study->text_count; i++) free(study->texts[i]);
   free(study->texts);
+  for (size_t i = 0; i < study->point_lists; i++) gx_points_free(study->points[i]);
+  free(study->points);
   free(study->cases);
   free(study->source);
   free(study->title);

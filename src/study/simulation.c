@@ -36,8 +36,9 @@ static void read_vector(const struct gx_case *one, enum gx_parameter_id id, int 
 
 static void read_body(struct gx_body *body, int dim, const struct gx_case *one)
 {
-  static const char *const shapes[] = {[GX_SHAPE_BOX] = "box", [GX_SHAPE_DISK] = "disk", [GX_SHAPE_RING] = "ring"};
-  for (int shape = GX_SHAPE_BOX; shape <= GX_SHAPE_RING; shape++)
+  static const char *const shapes[] = {
+      [GX_SHAPE_BOX] = "box", [GX_SHAPE_DISK] = "disk", [GX_SHAPE_RING] = "ring", [GX_SHAPE_POINTS] = "points"};
+  for (int shape = GX_SHAPE_BOX; shape <= GX_SHAPE_POINTS; shape++)
     if (is(one, GX_BODY_SHAPE, shapes[shape])) body->shape = (enum gx_shape)shape;
   read_vector(one, GX_BODY_CENTRE, dim, body->centre);
   read_vector(one, GX_BODY_SIZE, dim, body->size);
@@ -64,6 +65,7 @@ static void read_problem(struct gx_simulation *simulation, const struct gx_case 
   options->spin = real(one, GX_PROBLEM_SPIN, 0);
   options->rotation = real(one, GX_PROBLEM_ROTATION, 0);
   options->gravity = real(one, GX_PROBLEM_GRAVITY, 0);
+  simulation->points = one->points;
   const struct gx_value *active = &one->value[GX_PROBLEM_ACTIVE];
   read_vector(one, GX_PROBLEM_PHASES, options->dim, options->phase);
   for (int d = 0; d < options->dim; d++) {
@@ -260,8 +262,10 @@ enum gx_status gx_simulation_lay_out(struct gx_simulation *simulation, struct gx
 {
   const struct gx_problem_options *options = &simulation->problem_options;
   const int *cells = simulation->space_options.cells;
-  simulation->particles = gx_particles_fill(options->dim, cells, simulation->per_cell, simulation->layout,
-                                            options->moduli.density, simulation->problem->inside ? is_inside : NULL, simulation);
+  simulation->particles =
+      simulation->points ? gx_particles_list(simulation->points, options->moduli.density)
+                         : gx_particles_fill(options->dim, cells, simulation->per_cell, simulation->layout,
+                                             options->moduli.density, simulation->problem->inside ? is_inside : NULL, simulation);
   if (!simulation->particles) return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the particles");
   if (simulation->particles->n) return GX_OK;
   return gx_status_set(outcome, GX_REFUSED, -1,

@@ -17,7 +17,8 @@ struct gx_simulation {
   bool jumps;            /* output.jumps */
   double start, end, dt; /* s */
   double steps;
-  double frequency; /* of the exact solution, 1/s */
+  double frequency;               /* of the exact solution, 1/s */
+  const struct gx_points *points; /* that the body is made of, borrowed; NULL: it is filled */
   struct gx_particles *particles;
   struct gx_posed *posed;
   struct gx_space *space;

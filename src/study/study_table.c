@@ -118,6 +118,7 @@ static void put_case(struct cursor *at, const struct gx_case *one, const struct 
   put_real(at, "result.energy.drift", "", ok ? measured->drift : NAN);
   put_real(at, "result.momentum.linear", "", ok ? measured->momentum_change : NAN);
   put_real(at, "result.momentum.angular", "", ok ? measured->angular_change : NAN);
+  put_real(at, "result.restitution", "", ok ? result->restitution : NAN);
   for (int q = 0; q < GX_QUANTITIES; q++) put_errors(at, "result.", ".reference", result->reference, q, ok);
   for (int n = 0; n < GX_NORMS; n++) put_norm(at, "result.jump.final", n, ok ? measured->last.jump[n] : NAN);
   for (int n = 0; n < GX_NORMS; n++) put_norm(at, "result.jump.max", n, ok ? measured->max_jump[n] : NAN);

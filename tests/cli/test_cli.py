@@ -72,7 +72,7 @@ class Help(Case):
             starter = self.call("init", problem)
             self.assertIn("1 case", self.call("check", "-", input=starter.stdout.encode()).stdout)
             for key in ["frame: reference", "divergence: exact"]:
-                self.assertEqual("# " + key in starter.stdout, "cells: 32" in starter.stdout)
+                self.assertEqual("# " + key in starter.stdout, "\n  cells: " in starter.stdout)
         self.assertIn("cells: 32", self.call("init", "bar-linear").stdout)
         self.assertNotIn("cells: 32", self.call("init", "jump-model").stdout)
 

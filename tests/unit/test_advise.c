@@ -301,7 +301,7 @@ static struct gx_study *read_text(const char *text)
   assert_true(descriptor >= 0);
   assert_int_equal(write(descriptor, text, strlen(text)), strlen(text));
   close(descriptor);
-  struct gx_study *study_read = gx_runfile_read(path, 0, NULL, stderr);
+  struct gx_study *study_read = gx_runfile_read(path, 0, NULL, NULL, stderr);
   unlink(path);
   return study_read;
 }

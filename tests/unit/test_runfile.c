@@ -27,7 +27,7 @@ static struct gx_study *read_yaml(const char *yaml, const char *const *set, char
   close(descriptor);
   while (set && sets < MOST_SETS && set[sets]) sets++;
   FILE *out = open_memstream(&message, &length);
-  struct gx_study *study = gx_runfile_read(path, sets, set, out);
+  struct gx_study *study = gx_runfile_read(path, sets, set, NULL, out);
   fclose(out);
   unlink(path);
   if (errors)
@@ -393,8 +393,8 @@ static void unreadable_paths(void **state)
   char *message = NULL;
   size_t length = 0;
   FILE *out = open_memstream(&message, &length);
-  assert_null(gx_runfile_read("no/such/file.yaml", 0, NULL, out));
-  assert_null(gx_runfile_read(".", 0, NULL, out));
+  assert_null(gx_runfile_read("no/such/file.yaml", 0, NULL, NULL, out));
+  assert_null(gx_runfile_read(".", 0, NULL, NULL, out));
   fclose(out);
   assert_string_equal(message, "no/such/file.yaml: cannot be opened: No such file or directory\n"
                                ".: cannot be read: Is a directory\n");

@@ -141,6 +141,7 @@ static const char *const result_columns[] = {
     "result.energy.drift",
     "result.momentum.linear",
     "result.momentum.angular",
+    "result.restitution",
     "result.displacement.reference.inf",
     "result.displacement.reference.rms",
     "result.displacement.reference.l2n",
