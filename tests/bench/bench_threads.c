@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What threads inside a case gain, and what a particle takes of memory: 3-D, degree 2, eight particles a cell. Teams take turns, and
+ * minima are compared; seconds are those of the clock on the wall, so that other programs on the machine are seen too.
+ * usage: bench_threads [REPETITIONS] */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "core/team.h"
+#include "study/simulation.h"
+
+enum { CELLS = 32, CELLS_FOR_MEMORY = 24, PER_CELL = 2, STEPS = 8, MOST_THREADS = 2 };
+
+static const char *const spaces[] = {"standard", "moving-mesh"};
+
+static double now(void)
+{
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* ns per particle-step of a run; exits when it fails. */
+static double run(const char *space, int cells, struct gx_team *team)
+{
+  struct gx_case one = {0};
+  struct gx_simulation simulation;
+  struct gx_outcome outcome;
+  struct gx_stepper *stepper = NULL;
+  one.value[GX_PROBLEM_NAME] = (struct gx_value){.type = GX_TEXT, .text = "axis-aligned"};
+  one.value[GX_PROBLEM_DIMENSION] = (struct gx_value){.type = GX_INTEGER, .integer = 3};
+  one.value[GX_MESH_CELLS] = (struct gx_value){.type = GX_INTEGER, .integer = cells};
+  one.value[GX_MESH_PARTICLES_PER_CELL] = (struct gx_value){.type = GX_INTEGER, .integer = PER_CELL};
+  one.value[GX_METHOD_SPACE] = (struct gx_value){.type = GX_TEXT, .text = space};
+  one.value[GX_METHOD_DEGREE] = (struct gx_value){.type = GX_INTEGER, .integer = 2};
+  gx_parameter_resolve(one.value);
+  if (gx_simulation_plan(&simulation, &one, &outcome)) exit(1);
+  simulation.space_options.team = team;
+  if (gx_simulation_build(&simulation, &outcome) || !(stepper = gx_stepper_create(simulation.clock, simulation.space, NULL)))
+    exit(1);
+  if (gx_stepper_step(stepper, 0, simulation.dt)) exit(1); /* touches all memory */
+  double before = now();
+  for (int k = 1; k <= STEPS; k++)
+    if (gx_stepper_step(stepper, k * simulation.dt, simulation.dt)) exit(1);
+  double ns = 1e9 * (now() - before) / ((double)STEPS * (double)simulation.particles->n);
+  gx_stepper_free(stepper);
+  gx_simulation_free(&simulation);
+  return ns;
+}
+
+/* What a process grows by in its first run: particles, problem, space and clock, without measures. */
+static double bytes_per_particle(const char *space)
+{
+  fflush(stdout);
+  pid_t child = fork();
+  struct rusage before, after;
+  if (child == 0) {
+    run(space, 2, NULL); /* the program itself */
+    getrusage(RUSAGE_SELF, &before);
+    run(space, CELLS_FOR_MEMORY, NULL);
+    getrusage(RUSAGE_SELF, &after);
+    double kilobytes = (double)(after.ru_maxrss - before.ru_maxrss);
+    printf("%-12s %9.0f\n", space, 1024 * kilobytes / pow(CELLS_FOR_MEMORY * PER_CELL, 3));
+    fflush(stdout);
+    _exit(0);
+  }
+  int status = 1;
+  return child < 0 || waitpid(child, &status, 0) < 0 || status ? -1 : 0;
+}
+
+int main(int count, char **argument)
+{
+  int repetitions = count > 1 ? atoi(argument[1]) : 7;
+  if (repetitions < 1 || count > 2) {
+    fputs("usage: bench_threads [REPETITIONS]\n", stderr);
+    return 2;
+  }
+  printf("%d particles: bytes a particle at most\n", (int)pow(CELLS_FOR_MEMORY * PER_CELL, 3));
+  for (size_t i = 0; i < sizeof spaces / sizeof *spaces; i++)
+    if (bytes_per_particle(spaces[i]) < 0) return 1;
+  printf("\n%d particles: ns per particle-step on the wall, minimum of %d\n%-12s %9s %9s %9s\n", (int)pow(CELLS * PER_CELL, 3),
+         repetitions, "", "1 thread", "2 threads", "speed-up");
+  struct gx_team *team = gx_team_create(MOST_THREADS);
+  for (size_t i = 0; i < sizeof spaces / sizeof *spaces; i++) {
+    double least[2] = {INFINITY, INFINITY};
+    for (int r = 0; r < repetitions; r++) {
+      least[0] = fmin(least[0], run(spaces[i], CELLS, NULL));
+      least[1] = fmin(least[1], run(spaces[i], CELLS, team));
+    }
+    printf("%-12s %9.1f %9.1f %9.2f\n", spaces[i], least[0], least[1], least[0] / least[1]);
+    fflush(stdout);
+  }
+  gx_team_free(team);
+  return 0;
+}
