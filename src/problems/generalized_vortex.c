@@ -8,7 +8,7 @@
  *   d2u/dt2 = Q (R alpha_tt e_Q - R alpha_t^2 e_R),  Div P = mu Q ((3 alpha_R + R alpha_RR) e_Q - R alpha_R^2 e_R),
  * and the body force is b = d2u/dt2 - Div P / rho0. lambda does not matter, since det F = 1. In 3-D every plane of a tube moves so,
  * whose flat faces are free of traction too. The paper's ring, 0.75 to 1.25 m, is 0.24 to 0.4 m here, with its centre in the middle
- * of the domain; T = 0.375/c is the paper's 1 s, scaled, to within a hundredth, for its modulus, density and Poisson's ratio of 0.3. */
+ * of the domain; T = 0.375/c is the paper's 1 s, scaled, to about a hundredth, for its modulus, density and Poisson's ratio of 0.3. */
 #include <gridcross/problem.h>
 
 #include <math.h>
