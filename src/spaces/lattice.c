@@ -270,6 +270,7 @@ static void leave_plane(struct sweep *sweep, int plane)
   const struct direction *line = &lattice->line;
   const size_t row = row_of(lattice), n = (size_t)line->points;
   const bool value = pass->body || lattice->dim > 1;
+  for (int d = 0; pass->sum && d < lattice->dim; d++) memset(sweep->out[d], 0, lattice->plane * sizeof(double));
   for (int i = 0; pass->sum && i < lattice->middle.nodes; i++) {
     const double *X = in_window(lattice, sweep->X_sum, plane, i);
     for (int d = 0; d < lattice->dim; d++, X += lattice->pitch) {
@@ -379,6 +380,13 @@ struct task {
   const struct gx_lattice_pass *pass;
 };
 
+/* Planes that no particle meets. */
+static void clear(const struct gx_lattice *lattice, double *const *sum, int from, int to)
+{
+  for (int d = 0; sum && from < to && d < lattice->dim; d++)
+    memset(sum[d] + (size_t)from * lattice->plane, 0, (size_t)(to - from) * lattice->plane * sizeof(double));
+}
+
 static void run_part(void *context, size_t part, size_t worker)
 {
   const struct task *task = context;
@@ -387,8 +395,7 @@ static void run_part(void *context, size_t part, size_t worker)
   struct sweep sweep = begin(lattice, task->pass, worker);
   const int from = bound(lattice, part), to = bound(lattice, part + 1);
   int low = outer->first[from], high = low;
-  const size_t length = (size_t)lattice->dim * lattice->tail;
-  if (sweep.pass->sum) memset(lattice->tails + part * length, 0, length * sizeof(double));
+  if (part == 0) clear(lattice, sweep.pass->sum, 0, low);
   for (int point = from; point <= to; point++) {
     for (; low < (point < to ? outer->first[point] : high); low++) {
       if (sweep.pass->sum) direct(&sweep, part, low);
@@ -398,6 +405,7 @@ static void run_part(void *context, size_t part, size_t worker)
     while (high < outer->first[point] + outer->support) enter_plane(&sweep, high++);
     visit_plane(&sweep, point);
   }
+  if (part + 1 == lattice->parts) clear(lattice, sweep.pass->sum, high, outer->nodes);
 }
 
 void gx_lattice_run(struct gx_lattice *lattice, const struct gx_lattice_pass *pass)

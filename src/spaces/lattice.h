@@ -25,7 +25,7 @@ struct gx_lattice_row {
 struct gx_lattice_pass {
   double *const *field; /* [dim][stored]; NULL: none */
   bool gradient, value; /* what the visitor is given of it */
-  double *const *sum;   /* [dim][stored], added to; NULL: none */
+  double *const *sum;   /* [dim][stored]; NULL: none */
   bool T, body;         /* what the visitor sets for it: all n entries */
   /* Rows are visited at once and in any order. */
   void (*visit)(void *context, const struct gx_lattice_row *row);
@@ -41,7 +41,7 @@ void gx_lattice_free(struct gx_lattice *lattice);
 void gx_lattice_run(struct gx_lattice *lattice, const struct gx_lattice_pass *pass);
 /* value[d][p] = sum_i field[d][i] S_ip; gradient[d*dim+e][p] = sum_i field[d][i] D_ip,e; either may be NULL. */
 void gx_lattice_gather(struct gx_lattice *lattice, double *const *field, double *const *value, double *const *gradient);
-/* moment[d][i] += sum_p m_p value[d][p] S_ip */
+/* moment[d][i] = sum_p m_p value[d][p] S_ip */
 void gx_lattice_scatter(struct gx_lattice *lattice, const double *m, double *const *value, double *const *moment);
 
 #endif

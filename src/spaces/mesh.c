@@ -161,16 +161,33 @@ GX_CLONES static void divide_by_mass(size_t nodes, const double *restrict mass, 
   for (size_t i = 0; i < nodes; i++) field[i] = mass[i] > 0 ? field[i] / mass[i] : 0;
 }
 
+/* Lumped, of one component. */
+struct solving {
+  struct gx_mesh *mesh;
+  double *const *field;
+};
+
+static void solve_component(void *context, size_t d, size_t worker)
+{
+  const struct solving *solving = context;
+  const struct gx_mesh *mesh = solving->mesh;
+  double *field = solving->field[d];
+  (void)worker;
+  gx_grid_fold(&mesh->grid, field);
+  divide_by_mass(mesh->grid.stored, mesh->mass, field);
+  gx_grid_fix(&mesh->grid, (int)d, field);
+  gx_grid_spread(&mesh->grid, field);
+}
+
 enum gx_status gx_mesh_solve(struct gx_mesh *mesh, double *const *field)
 {
-  for (int d = 0; d < mesh->grid.dim; d++) gx_grid_fold(&mesh->grid, field[d]);
-  if (mesh->consistent) return gx_mass_solve(mesh->consistent, field, mesh->space.outcome);
-  for (int d = 0; d < mesh->grid.dim; d++) {
-    divide_by_mass(mesh->grid.stored, mesh->mass, field[d]);
-    gx_grid_fix(&mesh->grid, d, field[d]);
-    gx_grid_spread(&mesh->grid, field[d]);
+  if (!mesh->consistent) {
+    struct solving solving = {mesh, field};
+    gx_team_run(mesh->options.team, (size_t)mesh->grid.dim, solve_component, &solving);
+    return GX_OK;
   }
-  return GX_OK;
+  for (int d = 0; d < mesh->grid.dim; d++) gx_grid_fold(&mesh->grid, field[d]);
+  return gx_mass_solve(mesh->consistent, field, mesh->space.outcome);
 }
 
 /* Velocities of the particles come with their affine part. */
@@ -306,7 +323,6 @@ enum gx_status gx_mesh_project(struct gx_mesh *mesh, double *const *value, doubl
 {
   struct scattering scattering = {.mesh = mesh, .value = value};
   if (mesh->lattice) {
-    for (int d = 0; d < mesh->grid.dim; d++) memset(field[d], 0, mesh->grid.stored * sizeof(double));
     gx_lattice_scatter(mesh->lattice, mesh->space.particles->m, value, field);
     add_affine(mesh, value, field);
     return gx_mesh_solve(mesh, field);
@@ -422,26 +438,25 @@ static void gather_block(void *context, struct gx_block *block)
                      gathering->gradient ? gradient : NULL);
 }
 
-void gx_mesh_gather(struct gx_mesh *mesh, double *const *field, double *const *value)
+static void gather(struct gx_mesh *mesh, double *const *field, double *const *value, double *const *gradient)
 {
-  struct gathering gathering = {mesh, value, NULL};
+  struct gathering gathering = {mesh, value, gradient};
   if (mesh->lattice) {
-    gx_lattice_gather(mesh->lattice, field, value, NULL);
+    gx_lattice_gather(mesh->lattice, field, value, gradient);
     return;
   }
   gx_exchange_lend(&mesh->exchange, field, NULL);
   gx_blocks_each(&mesh->blocks, gather_block, &gathering);
 }
 
+void gx_mesh_gather(struct gx_mesh *mesh, double *const *field, double *const *value)
+{
+  gather(mesh, field, value, NULL);
+}
+
 void gx_mesh_gather_gradient(struct gx_mesh *mesh, double *const *field, double *const *gradient)
 {
-  struct gathering gathering = {mesh, NULL, gradient};
-  if (mesh->lattice) {
-    gx_lattice_gather(mesh->lattice, field, NULL, gradient);
-    return;
-  }
-  gx_exchange_lend(&mesh->exchange, field, NULL);
-  gx_blocks_each(&mesh->blocks, gather_block, &gathering);
+  gather(mesh, field, NULL, gradient);
 }
 
 void gx_mesh_particle_acceleration(struct gx_space *space, double *const *a)

@@ -143,7 +143,6 @@ static enum gx_status accelerate_lattice(struct moving_mesh *moving, double t)
                                        .body = mesh->space.posed->problem->body,
                                        .visit = load_row,
                                        .context = &loading};
-  for (int d = 0; d < particles->dim; d++) memset(mesh->a[d], 0, mesh->grid.stored * sizeof(double));
   gx_lattice_run(mesh->lattice, &pass);
   moving->accelerated = t;
   if (loading.tangled < LONG_MAX) {
@@ -220,16 +219,43 @@ static void follow_block(void *context, struct gx_block *block)
                   particles->u[d] + from);
 }
 
+/* Stretches of the nodes are kicked, then moved, while in cache. */
+struct stepping {
+  struct gx_mesh *mesh;
+  double kick, drift; /* s */
+  size_t stretches;
+};
+
+static void step_stretch(void *context, size_t part, size_t worker)
+{
+  const struct stepping *stepping = context;
+  const struct gx_mesh *mesh = stepping->mesh;
+  const size_t stored = mesh->grid.stored, from = gx_team_bound(stored, stepping->stretches, part);
+  const size_t n = gx_team_bound(stored, stepping->stretches, part + 1) - from;
+  (void)worker;
+  for (int d = 0; d < mesh->grid.dim; d++) {
+    if (stepping->kick != 0) gx_vector_add(n, stepping->kick, mesh->a[d] + from, mesh->v[d] + from);
+    if (stepping->drift != 0) gx_vector_add(n, stepping->drift, mesh->v[d] + from, mesh->u[d] + from);
+  }
+}
+
+static void step_nodes(struct gx_mesh *mesh, double kick, double drift)
+{
+  const size_t length = 1024;
+  struct stepping stepping = {mesh, kick, drift, (mesh->grid.stored + length - 1) / length};
+  gx_team_run(mesh->options.team, stepping.stretches, step_stretch, &stepping);
+}
+
 static void advance(struct gx_space *space, double kick, double span, double drift)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
-  const int dim = mesh->grid.dim;
-  if (kick != 0)
-    for (int d = 0; d < dim; d++) gx_vector_add(mesh->grid.stored, kick, mesh->a[d], mesh->v[d]);
-  if (kick != 0 && mesh->affine) gx_affine_gather(mesh); /* before the nodes move */
-  if (span != 0) strain(mesh, span);
-  if (drift != 0)
-    for (int d = 0; d < dim; d++) gx_vector_add(mesh->grid.stored, drift, mesh->v[d], mesh->u[d]);
+  const bool between = (kick != 0 && mesh->affine) || (span != 0 && mesh->options.stress_rate);
+  step_nodes(mesh, kick, between ? 0 : drift);
+  if (between) {
+    if (kick != 0 && mesh->affine) gx_affine_gather(mesh); /* before the nodes move */
+    if (span != 0) strain(mesh, span);
+    step_nodes(mesh, 0, drift);
+  }
   if (!mesh->options.each_step) return;
   struct following following = {mesh, kick, drift};
   double momentum[GX_MAX_DIM];

@@ -86,27 +86,29 @@ static void set_forces(void *context, const struct gx_lattice_row *row)
   for (int d = 0; forces->body && d < forces->dim; d++) memcpy(row->body[d], forces->body[d] + row->first, bytes);
 }
 
-/* What is there already is added to. */
+/* Whatever was there is replaced. */
 static void check_scatter(const struct setting *setting, bool loaded)
 {
   const int dim = setting->particles->dim;
   const size_t n = setting->particles->n, nodes = setting->points.grid.stored;
   double **T = random_fields(dim * dim, n, 5), **body = random_fields(dim, n, 7), **m = random_fields(1, n, 11);
-  double **force = random_fields(dim, nodes, 13), **team = random_fields(dim, nodes, 13),
-         **expected = random_fields(dim, nodes, 13);
+  double **force = random_fields(dim, nodes, 13), **team = random_fields(dim, nodes, 17), **expected = fields(dim, nodes);
+  double **momentum = random_fields(dim, nodes, 19), **team_momentum = random_fields(dim, nodes, 23);
+  double **expected_momentum = fields(dim, nodes);
   struct forces forces = {dim, T, loaded ? body : NULL};
   struct gx_lattice_pass pass = {.sum = force, .T = true, .body = loaded, .visit = set_forces, .context = &forces};
   gx_transfer_scatter_force(&setting->points.weights, T, loaded ? body : NULL, expected);
-  gx_transfer_scatter(&setting->points.weights, m[0], body, NULL, expected);
+  gx_transfer_scatter(&setting->points.weights, m[0], body, NULL, expected_momentum);
   gx_lattice_run(setting->lattice, &pass);
-  gx_lattice_scatter(setting->lattice, m[0], body, force);
+  gx_lattice_scatter(setting->lattice, m[0], body, momentum);
   pass.sum = team;
   gx_lattice_run(setting->team_lattice, &pass);
-  gx_lattice_scatter(setting->team_lattice, m[0], body, team);
+  gx_lattice_scatter(setting->team_lattice, m[0], body, team_momentum);
   double met = pow(3, dim) * (setting->points.weights.support + 1); /* particles that a node sums, weights below 1 */
   compare(setting, "force", dim, nodes, force, team, expected, met * 3 * setting->points.grid.axis[dim - 1].cells);
-  double **nodal[] = {force, team, expected};
-  for (int i = 0; i < 3; i++) fields_free(nodal[i], dim);
+  compare(setting, "momentum", dim, nodes, momentum, team_momentum, expected_momentum, met);
+  double **nodal[] = {force, team, expected, momentum, team_momentum, expected_momentum};
+  for (int i = 0; i < 6; i++) fields_free(nodal[i], dim);
   fields_free(T, dim * dim);
   fields_free(body, dim);
   fields_free(m, 1);
