@@ -38,6 +38,9 @@ static void initial(const struct gx_posed *posed, double *const *u, double *cons
 
 static enum gx_status check(const struct gx_problem_options *options, struct gx_outcome *outcome)
 {
+  if (options->body.shape == GX_SHAPE_POINTS)
+    return gx_status_set(outcome, GX_REFUSED, -1,
+                         "the block vibrates across the width of a shape: give body.shape in place of a list of points");
   GX_TRY(gx_body_check(options, outcome));
   for (int d = 0; d < options->dim; d++) {
     double strain = M_PI * fabs(options->amplitude) / width(&options->body, d);

@@ -99,6 +99,8 @@ static void what_makes_no_sense_of_a_body_is_refused(void **state)
   refused(&one, "output.budget is of errors over the whole domain");
   one = case_of(FLIGHT, "output.frequency=1");
   refused(&one, "free-flight is none");
+  one = case_of("problem.name=spinning-block", "body.file=list.csv");
+  refused(&one, "in place of a list of points");
   one = case_of("problem.name=free-flight", "method.space=spline-particle");
   refused(&one, "spline-particle is for bodies from end to end");
 }
