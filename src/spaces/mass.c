@@ -24,10 +24,8 @@ struct gx_mass *gx_mass_create(const struct gx_grid *grid, const struct gx_basis
   if (grid->dim == 1) {
     mass->band = gx_mass_band_create(&grid->axis[0], 1);
   } else {
-    double half[GX_MAX_DIM];
-    for (int d = 0; d < grid->dim; d++) half[d] = particles->half_length[d][0];
     mass->kronecker = gx_mass_kronecker_create(grid, particles->lattice);
-    mass->cg = gx_mass_cg_create(grid, basis, half, particles->n);
+    mass->cg = gx_mass_cg_create(grid, basis, particles->n);
   }
   if (mass->band || (mass->kronecker && mass->cg)) return mass;
   gx_mass_free(mass);

@@ -4,6 +4,7 @@
 #include "mass_band.h"
 
 #include <float.h>
+#include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 
@@ -97,7 +98,9 @@ static void assemble(struct gx_mass_band *band, size_t n, const int *first, cons
         if (position[q] >= position[r])
           entry[position[r] * width + position[q] - position[r]] += m[p] * (S[(size_t)q * n + p] * S[(size_t)r * n + p]);
   }
-  for (size_t i = 0; i < band->unknowns; i++) band->filled[i] = entry[i * width] > 0;
+  double most = 0;
+  for (size_t i = 0; i < band->unknowns; i++) most = fmax(most, entry[i * width]);
+  for (size_t i = 0; i < band->unknowns; i++) band->filled[i] = entry[i * width] > GX_MASS_TRACE * most;
 }
 
 /* Decouples an unknown from the others: unit diagonal, zero row and column. */

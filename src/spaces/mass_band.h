@@ -11,6 +11,9 @@
 enum { GX_MASS_ENDS = 4 };  /* which ends are held: bit 0 the low one, bit 1 the high one */
 enum { GX_MASS_LANES = 8 }; /* lines that are solved side by side */
 
+/* A function whose M(i, i) is below this share of the largest has no mass but that of round-off in the positions of particles. */
+#define GX_MASS_TRACE 1e-24
+
 struct gx_mass_band {
   const struct gx_axis *axis; /* borrowed */
   size_t unknowns, bandwidth;

@@ -12,6 +12,7 @@
 #include "../core/aligned.h"
 #include "../core/kernel.h"
 #include "../core/vector.h"
+#include "mass_band.h"
 #include "mass_kronecker.h"
 
 struct gx_mass_cg {
@@ -42,14 +43,14 @@ static bool allocate(struct gx_mass_cg *cg, size_t n)
   return true;
 }
 
-struct gx_mass_cg *gx_mass_cg_create(const struct gx_grid *grid, const struct gx_basis *basis, const double *half, size_t n)
+struct gx_mass_cg *gx_mass_cg_create(const struct gx_grid *grid, const struct gx_basis *basis, size_t n)
 {
   static const int no_lattice[GX_MAX_DIM];
   struct gx_mass_cg *cg = calloc(1, sizeof *cg);
   if (!cg) return NULL;
   cg->grid = grid;
   cg->box = gx_mass_kronecker_create(grid, no_lattice);
-  if (!cg->box || !allocate(cg, n) || gx_mass_kronecker_factor_box(cg->box, basis, half)) {
+  if (!cg->box || !allocate(cg, n) || gx_mass_kronecker_factor_box(cg->box, basis)) {
     gx_mass_cg_free(cg);
     return NULL;
   }
@@ -94,7 +95,8 @@ void gx_mass_cg_prepare(struct gx_mass_cg *cg, const struct gx_weights *weights,
   memset(cg->scale, 0, grid->stored * sizeof *cg->scale);
   GX_FOR_DIM(grid->dim, add_diagonal(dim, weights, m, cg->scale))
   gx_grid_fold(grid, cg->scale);
-  for (size_t i = 0; i < grid->stored; i++) cg->scale[i] = cg->scale[i] > 0 ? sqrt(cg->box_diagonal[i] / cg->scale[i]) : 0;
+  const double trace = GX_MASS_TRACE * gx_vector_max(grid->stored, cg->scale);
+  for (size_t i = 0; i < grid->stored; i++) cg->scale[i] = cg->scale[i] > trace ? sqrt(cg->box_diagonal[i] / cg->scale[i]) : 0;
 }
 
 GX_CLONES static void multiply(size_t n, const double *restrict factor, double *restrict value)
@@ -113,17 +115,14 @@ static void precondition(struct gx_mass_cg *cg, int d)
   gx_grid_spread(cg->grid, cg->z[d]);
 }
 
-/* q = M p without the rows of held functions, folded */
+/* q = M p, folded; at functions that are held z and so p are 0, whatever q is */
 static void apply(struct gx_mass_cg *cg)
 {
   const struct gx_grid *grid = cg->grid;
   gx_transfer_gather(cg->weights, cg->p, cg->value);
   for (int d = 0; d < grid->dim; d++) memset(cg->q[d], 0, grid->stored * sizeof *cg->q[d]);
   gx_transfer_scatter(cg->weights, cg->m, cg->value, NULL, cg->q);
-  for (int d = 0; d < grid->dim; d++) {
-    gx_grid_fold(grid, cg->q[d]);
-    gx_grid_fix(grid, d, cg->q[d]);
-  }
+  for (int d = 0; d < grid->dim; d++) gx_grid_fold(grid, cg->q[d]);
 }
 
 /* p <- z + beta p */
@@ -149,7 +148,6 @@ static bool begin(struct gx_mass_cg *cg, double *const *field, struct progress *
   bool any = false;
   for (int d = 0; d < cg->grid->dim; d++) {
     memcpy(cg->r[d], field[d], bytes);
-    gx_grid_fix(cg->grid, d, cg->r[d]);
     precondition(cg, d);
     memcpy(cg->p[d], cg->z[d], bytes);
     progress->rz[d] = progress->first[d] = gx_vector_dot(stored, cg->r[d], cg->z[d]);

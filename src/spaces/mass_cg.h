@@ -15,8 +15,8 @@ enum { GX_MASS_CG_MOST = 1000 }; /* iterations */
 
 struct gx_mass_cg;
 
-/* For n particles. half[d]: half length of particle domains. NULL when memory runs out. grid is borrowed. */
-struct gx_mass_cg *gx_mass_cg_create(const struct gx_grid *grid, const struct gx_basis *basis, const double *half, size_t n);
+/* For n particles. NULL when memory runs out. grid is borrowed. */
+struct gx_mass_cg *gx_mass_cg_create(const struct gx_grid *grid, const struct gx_basis *basis, size_t n);
 void gx_mass_cg_free(struct gx_mass_cg *cg);
 /* Takes M to be that of weights and m, both borrowed until the next call. */
 void gx_mass_cg_prepare(struct gx_mass_cg *cg, const struct gx_weights *weights, const double *m);

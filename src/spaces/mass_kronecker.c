@@ -104,8 +104,7 @@ int gx_mass_kronecker_factor(struct gx_mass_kronecker *kronecker, const struct g
   return 0;
 }
 
-static int factor_full_line(struct gx_mass_band *band, const struct gx_particles *line, const struct gx_basis *basis,
-                            const double *half)
+static int factor_full_line(struct gx_mass_band *band, const struct gx_particles *line, const struct gx_basis *basis)
 {
   const size_t n = line->n, support = (size_t)band->axis->support;
   int *first = malloc(n * sizeof *first);
@@ -113,7 +112,7 @@ static int factor_full_line(struct gx_mass_band *band, const struct gx_particles
   int status = -2;
   if (first && S) {
     double *halves = S + 2 * support * n;
-    for (size_t k = 0; k < n; k++) halves[k] = *half;
+    for (size_t k = 0; k < n; k++) halves[k] = 0.25 * band->axis->h;
     basis->evaluate(band->axis, n, line->X[0], halves, first, S, S + support * n);
     status = gx_mass_band_factor(band, n, first, S, line->m);
   }
@@ -122,13 +121,13 @@ static int factor_full_line(struct gx_mass_band *band, const struct gx_particles
   return status;
 }
 
-int gx_mass_kronecker_factor_box(struct gx_mass_kronecker *kronecker, const struct gx_basis *basis, const double *half)
+int gx_mass_kronecker_factor_box(struct gx_mass_kronecker *kronecker, const struct gx_basis *basis)
 {
   int status = 0;
   for (int d = 0; d < kronecker->grid->dim && !status; d++) {
     const struct gx_axis *axis = &kronecker->grid->axis[d];
     struct gx_particles *line = gx_particles_create(1, &axis->cells, axis->support, GX_LAYOUT_GAUSS, 1);
-    status = line ? factor_full_line(kronecker->band[d], line, basis, &half[d]) : -2;
+    status = line ? factor_full_line(kronecker->band[d], line, basis) : -2;
     gx_particles_free(line);
   }
   return status;

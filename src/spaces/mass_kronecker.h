@@ -17,9 +17,9 @@ void gx_mass_kronecker_free(struct gx_mass_kronecker *kronecker);
 bool gx_mass_kronecker_fits(const struct gx_mass_kronecker *kronecker, const struct gx_weights *weights, const double *m);
 /* Factors the mass of particles that fit. Returns 0, or -1 when it is not positive definite. */
 int gx_mass_kronecker_factor(struct gx_mass_kronecker *kronecker, const struct gx_weights *weights, const double *m);
-/* Factors the mass of a full box of density 1, by degree + 1 Gauss points in each cell. half[d]: half length of particle domains.
- * Returns 0, -1 when it is not positive definite, -2 when memory runs out. */
-int gx_mass_kronecker_factor_box(struct gx_mass_kronecker *kronecker, const struct gx_basis *basis, const double *half);
+/* Factors the mass of a full box of density 1, by as many Gauss points in each cell as functions meet there, with domains of half
+ * a cell. Returns 0, -1 when it is not positive definite, -2 when memory runs out. */
+int gx_mass_kronecker_factor_box(struct gx_mass_kronecker *kronecker, const struct gx_basis *basis);
 /* diagonal[i] = M(i, i), at periodic images too. [stored] */
 void gx_mass_kronecker_diagonal(const struct gx_mass_kronecker *kronecker, double *diagonal);
 /* Solves M x = field in place for a vector component, zero where an end holds it. field: [stored], folded, and
