@@ -114,6 +114,7 @@ struct gx_space {
   const struct gx_posed *posed;   /* borrowed */
   struct gx_outcome *outcome;     /* borrowed: filled when a primitive fails */
   bool through_cells;             /* particles move through cells: crossings are counted */
+  size_t left_cells;              /* quadrature reconstructed: most cells at once that were left to sums over their particles */
   const double *edge;             /* [edges] ascending, where cells of its own end, m, borrowed; NULL: the cells of mesh.cells */
   size_t edges;
 };

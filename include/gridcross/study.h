@@ -64,10 +64,11 @@ struct gx_history {
 
 struct gx_result {
   struct gx_outcome outcome;
-  double dt;        /* s */
-  double steps;     /* taken */
-  double time;      /* s, reached */
-  double stable_dt; /* s, estimated at the start; 0: no step is stable; NaN: unknown */
+  double dt;         /* s */
+  double steps;      /* taken */
+  double time;       /* s, reached */
+  double stable_dt;  /* s, estimated at the start; 0: no step is stable; NaN: unknown */
+  double left_cells; /* most cells at once that quadrature reconstructed left to sums over particles; NaN: does not apply */
   struct gx_measured measured;
   long probe;                                /* index of the particle followed; -1: none */
   double restitution;                        /* of two bodies that have parted; NaN: not so */

@@ -143,7 +143,11 @@ static enum gx_status weigh(struct gx_mesh *mesh, double *const *u, double *cons
   struct gx_blocks_stray stray = gx_blocks_place(&mesh->blocks, u, low, high);
   if (stray.d >= 0) return report_stray(mesh, &stray);
   if (mesh->affine) gx_affine_weigh(mesh, mesh->blocks.x);
-  return mesh->reconstruction ? gx_reconstruction_place(mesh->reconstruction, mesh->blocks.x) : GX_OK;
+  if (!mesh->reconstruction) return GX_OK;
+  GX_TRY(gx_reconstruction_place(mesh->reconstruction, mesh->blocks.x));
+  const size_t left = mesh->reconstruction->fit->left_cells;
+  if (left > mesh->space.left_cells) mesh->space.left_cells = left;
+  return GX_OK;
 }
 
 enum gx_status gx_mesh_weigh(struct gx_mesh *mesh, double *const *u, double *const *F)
@@ -267,6 +271,27 @@ static void scatter_points(void *context, struct gx_block *block)
                       mesh->space.posed->problem->body ? body : NULL);
 }
 
+/* What is left to the particles of cells that no field is fitted in. */
+static void scatter_left(void *context, struct gx_block *block)
+{
+  const struct scattering *scattering = context;
+  struct gx_mesh *mesh = scattering->mesh;
+  const struct gx_reconstruction *r = mesh->reconstruction;
+  const struct gx_particles *particles = mesh->space.particles;
+  const bool *left = r->fit->left + block->from;
+  const int dim = mesh->grid.dim;
+  double *value[GX_MAX_DIM], *m = block->a[0];
+  if (scattering->value) gx_block_part(block, dim, scattering->value, value);
+  for (size_t p = 0; p < block->n; p++) {
+    const size_t at = block->from + p;
+    m[p] = left[p] ? particles->m[at] : 0;
+    for (int k = 0; k < dim * dim; k++) block->T[k][p] = left[p] ? r->field[k][at] / r->inverse_volume[at] : 0;
+    for (int d = 0; d < dim; d++) block->body[d][p] = m[p] * particles->b[d][at];
+  }
+  gx_exchange_scatter(&mesh->exchange, block, m, scattering->value ? value : NULL, block->T,
+                      mesh->space.posed->problem->body ? block->body : NULL);
+}
+
 /* Scatters from the points that integrals are sums over. */
 static void scatter(struct scattering *scattering)
 {
@@ -282,11 +307,17 @@ static void scatter(struct scattering *scattering)
   }
   if (scattering->value) gx_reconstruction_value(r, scattering->value);
   gx_blocks_each_apart(&r->blocks, scatter_points, scattering);
+  if (r->fit->left) gx_blocks_each_apart(&mesh->blocks, scatter_left, scattering);
 }
 
 static enum gx_status factor_mass(struct gx_mesh *mesh)
 {
   const struct gx_reconstruction *r = mesh->reconstruction;
+  if (r && r->fit->left)
+    return gx_status_set(mesh->space.outcome, GX_SINGULAR, -1,
+                         "too few particles around %zu of the cells to reconstruct fields there with consistent mass: use lumped "
+                         "mass, or quadrature particles",
+                         r->fit->left_cells);
   return gx_mass_factor(mesh->consistent, r ? &r->blocks.whole : &mesh->blocks.whole, (r ? r->points : mesh->space.particles)->m,
                         mesh->space.outcome);
 }
@@ -372,29 +403,6 @@ void gx_mesh_kick_block(const struct gx_mesh *mesh, const struct gx_block *block
   }
 }
 
-void gx_mesh_moment(const struct gx_mesh *mesh, double *const *field, double *moment)
-{
-  for (int d = 0; d < mesh->grid.dim; d++) moment[d] = gx_vector_dot(mesh->grid.stored, mesh->mass, field[d]);
-}
-
-void gx_mesh_expect_momentum(const struct gx_mesh *mesh, double kick, double *momentum)
-{
-  const struct gx_particles *particles = mesh->space.particles;
-  const double flip = mesh->options.pic ? 0 : mesh->options.flip;
-  double impulse[GX_MAX_DIM], of_nodes[GX_MAX_DIM];
-  if (!mesh->reconstruction) return;
-  gx_mesh_moment(mesh, mesh->a, impulse);
-  gx_mesh_moment(mesh, mesh->v, of_nodes);
-  for (int d = 0; d < particles->dim; d++)
-    momentum[d] =
-        flip * (gx_vector_dot(particles->n, particles->m, particles->v[d]) + kick * impulse[d]) + (1 - flip) * of_nodes[d];
-}
-
-void gx_mesh_keep_momentum(const struct gx_mesh *mesh, const double *momentum, double *const *v)
-{
-  if (mesh->reconstruction) gx_reconstruction_keep(mesh->reconstruction, momentum, v);
-}
-
 enum gx_status gx_mesh_accelerate(struct gx_mesh *mesh, double t, long (*load)(struct gx_mesh *mesh, struct gx_block *block))
 {
   struct gx_particles *particles = mesh->space.particles;
@@ -463,31 +471,6 @@ void gx_mesh_particle_acceleration(struct gx_space *space, double *const *a)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
   gx_mesh_gather(mesh, mesh->a, a);
-}
-
-/* In blocks, so that nothing is allocated. */
-void gx_mesh_field(const struct gx_space *space, enum gx_field which, size_t n, double *const *point, double *const *value)
-{
-  enum { BLOCK = 64 };
-  const struct gx_mesh *mesh = (const struct gx_mesh *)space;
-  const int dim = mesh->grid.dim;
-  int first[GX_MAX_DIM][BLOCK];
-  double S[GX_MAX_DIM][GX_MAX_SUPPORT * BLOCK], D[GX_MAX_DIM][GX_MAX_SUPPORT * BLOCK], half[BLOCK];
-  struct gx_weights weights = {.dim = dim, .support = mesh->grid.axis[0].support};
-  for (int i = 0; i < BLOCK; i++) half[i] = 1e-12 * mesh->grid.axis[0].h; /* a hat, but for round-off at its kinks */
-  for (size_t from = 0; from < n; from += weights.n) {
-    double *out[GX_MAX_DIM];
-    weights.n = n - from < BLOCK ? n - from : BLOCK;
-    for (int d = 0; d < dim; d++) {
-      weights.stride[d] = mesh->grid.stride[d];
-      weights.first[d] = first[d];
-      weights.S[d] = S[d];
-      weights.D[d] = D[d];
-      out[d] = value[d] + from;
-      mesh->options.basis->evaluate(&mesh->grid.axis[d], weights.n, point[d] + from, half, first[d], S[d], D[d]);
-    }
-    gx_transfer_gather(&weights, which == GX_FIELD_VELOCITY ? mesh->v : mesh->a, out);
-  }
 }
 
 void gx_mesh_append(struct gx_state *state, int count, double *const *array, size_t length)

@@ -65,10 +65,10 @@ long gx_mesh_load_nominal(struct gx_mesh *mesh, struct gx_block *block);
 void gx_mesh_kick_block(const struct gx_mesh *mesh, const struct gx_block *block, double kick);
 /* The momentum that a kick with the nodes' a is to leave the particles with, and bringing them to it; only where the integrals are not
  * sums over particles, which would keep it anyway. Kicked nodes: v is that after the kick. */
-void gx_mesh_expect_momentum(const struct gx_mesh *mesh, double kick, double *momentum);
-void gx_mesh_keep_momentum(const struct gx_mesh *mesh, const double *momentum, double *const *v);
+void gx_mesh_momentum_expect(const struct gx_mesh *mesh, double kick, double *momentum);
+void gx_mesh_momentum_keep(const struct gx_mesh *mesh, const double *momentum, double *const *v);
 /* Sum of mass times field over the nodes. moment: [dim] */
-void gx_mesh_moment(const struct gx_mesh *mesh, double *const *field, double *moment);
+void gx_mesh_momentum_of(const struct gx_mesh *mesh, double *const *field, double *moment);
 /* Nodal fields at all particles, and their gradients. */
 void gx_mesh_gather(struct gx_mesh *mesh, double *const *field, double *const *value);
 void gx_mesh_gather_gradient(struct gx_mesh *mesh, double *const *field, double *const *gradient);

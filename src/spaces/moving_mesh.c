@@ -259,10 +259,10 @@ static void advance(struct gx_space *space, double kick, double span, double dri
   if (!mesh->options.each_step) return;
   struct following following = {mesh, kick, drift};
   double momentum[GX_MAX_DIM];
-  gx_mesh_expect_momentum(mesh, kick, momentum);
+  gx_mesh_momentum_expect(mesh, kick, momentum);
   gx_exchange_lend(&mesh->exchange, mesh->v, kick != 0 ? mesh->a : NULL);
   gx_blocks_each(&mesh->blocks, follow_block, &following);
-  if (kick != 0) gx_mesh_keep_momentum(mesh, momentum, space->particles->v);
+  if (kick != 0) gx_mesh_momentum_keep(mesh, momentum, space->particles->v);
 }
 
 static void open_block(void *context, struct gx_block *block)
@@ -330,8 +330,8 @@ static void settle(struct gx_space *space)
   gx_mesh_gather(mesh, mesh->u, space->particles->u);
   gx_mesh_gather(mesh, mesh->v, space->particles->v);
   double momentum[GX_MAX_DIM];
-  gx_mesh_moment(mesh, mesh->v, momentum);
-  gx_mesh_keep_momentum(mesh, momentum, space->particles->v);
+  gx_mesh_momentum_of(mesh, mesh->v, momentum);
+  gx_mesh_momentum_keep(mesh, momentum, space->particles->v);
 }
 
 static void state(struct gx_space *space, struct gx_state *list)
@@ -360,8 +360,8 @@ static void rates(struct gx_space *space, double *const *rate)
   if (mesh->options.each_step) {
     double impulse[GX_MAX_DIM];
     gx_mesh_gather(mesh, mesh->a, rate);
-    gx_mesh_moment(mesh, mesh->a, impulse);
-    gx_mesh_keep_momentum(mesh, impulse, rate);
+    gx_mesh_momentum_of(mesh, mesh->a, impulse);
+    gx_mesh_momentum_keep(mesh, impulse, rate);
     if (mesh->options.particle_motion)
       for (int d = 0; d < dim; d++) memcpy(rate[dim + d], particles->v[d], particles->n * sizeof(double));
     else

@@ -9,6 +9,7 @@
 #include "../core/kernel.h"
 #include "../core/tensor.h"
 #include "../core/vector.h"
+#include "least_squares.h"
 #include "spline_fit.h"
 
 static int allocate(struct gx_reconstruction *r, const struct gx_space_options *options)
@@ -28,35 +29,29 @@ static int allocate(struct gx_reconstruction *r, const struct gx_space_options *
   return 0;
 }
 
-static enum gx_status refuse(const struct gx_grid *grid, const struct gx_particles *particles, struct gx_outcome *outcome)
+/* Splines run from end to end of a line that particles fill; all else is fitted cell by cell. */
+static enum gx_status choose_fit(struct gx_reconstruction *r, struct gx_outcome *outcome)
 {
-  const struct gx_axis *axis = &grid->axis[0];
-  if (grid->dim > 1)
-    return gx_status_set(outcome, GX_REFUSED, -1, "quadrature reconstructed is for one dimension: use quadrature particles");
-  if (!axis->periodic && !(axis->held[0] && axis->held[1]))
-    return gx_status_set(outcome, GX_REFUSED, -1,
-                         "quadrature reconstructed mirrors fields at fixed ends, and one end is free: use quadrature particles");
-  double filled = gx_vector_sum(particles->n, particles->V0);
-  if (fabs(filled - 1) > 1e-6)
-    return gx_status_set(outcome, GX_REFUSED, -1,
-                         "quadrature reconstructed needs a body that fills the domain, and this one fills %.6g of it: use "
-                         "quadrature particles",
-                         filled);
-  return GX_OK;
+  enum { BEYOND = 1 }; /* degrees of the polynomials above that of the basis */
+  const struct gx_axis *axis = &r->grid->axis[0];
+  const struct gx_particles *particles = r->particles;
+  const bool ended = axis->periodic || (axis->held[0] && axis->held[1]);
+  if (r->grid->dim == 1 && ended && fabs(gx_vector_sum(particles->n, particles->V0) - 1) < 1e-6)
+    return gx_spline_fit_create(&r->fit, axis->degree, axis->periodic, particles->n, particles->X[0], r->points->n,
+                                r->points->X[0], outcome);
+  return gx_least_squares_create(&r->fit, r->grid, axis->degree + BEYOND, axis->degree + 1, r->points, particles->n, outcome);
 }
 
 enum gx_status gx_reconstruction_create(struct gx_reconstruction **out, const struct gx_grid *grid,
                                         const struct gx_space_options *options, const struct gx_particles *particles,
                                         bool current, struct gx_outcome *outcome)
 {
-  GX_TRY(refuse(grid, particles, outcome));
   struct gx_reconstruction *r = calloc(1, sizeof *r);
   if (!r) return gx_status_set(outcome, GX_FAILED, -1, "out of memory");
   *r = (struct gx_reconstruction){.grid = grid, .particles = particles, .current = current};
   enum gx_status status = allocate(r, options)
                               ? gx_status_set(outcome, GX_FAILED, -1, "out of memory for the points of the quadrature")
-                              : gx_spline_fit_create(&r->fit, grid->axis[0].degree, grid->axis[0].periodic, particles->n,
-                                                     particles->X[0], r->points->n, r->points->X[0], outcome);
+                              : choose_fit(r, outcome);
   if (status == GX_OK)
     *out = r;
   else
@@ -115,15 +110,27 @@ GX_CLONES static void scale(size_t n, double factor, double *value)
   for (size_t q = 0; q < n; q++) value[q] *= factor;
 }
 
+/* Sum of m value, value NULL: of m, over the particles that the fields stand for. */
+static double represented(const struct gx_reconstruction *r, const double *value)
+{
+  const struct gx_particles *particles = r->particles;
+  const double all = value ? gx_vector_dot(particles->n, particles->m, value) : gx_vector_sum(particles->n, particles->m);
+  double left = 0;
+  for (size_t p = 0; r->fit->left && p < particles->n; p++)
+    if (r->fit->left[p]) left += value ? particles->m[p] * value[p] : particles->m[p];
+  return all - left;
+}
+
 void gx_reconstruction_mass(struct gx_reconstruction *r)
 {
   const struct gx_particles *particles = r->particles;
+  struct gx_particles *points = r->points;
   measure_volumes(r);
   product(particles->n, particles->m, r->inverse_volume, r->field[0]);
-  r->fit->kind->take(r->fit, 1, false, r->field, &r->points->m);
-  weigh(r->points->n, r->points->V0, r->points->m);
-  if (r->fit->kind->scales)
-    scale(r->points->n, gx_vector_sum(particles->n, particles->m) / gx_vector_sum(r->points->n, r->points->m), r->points->m);
+  r->fit->kind->take(r->fit, 1, false, r->field, &points->m);
+  weigh(points->n, points->V0, points->m);
+  const double taken = gx_vector_sum(points->n, points->m);
+  if (r->fit->kind->scales && taken > 0) scale(points->n, represented(r, NULL) / taken, points->m);
 }
 
 /* Whether an end of the grid holds component d. */
@@ -137,7 +144,8 @@ static bool is_held(const struct gx_grid *grid, int d)
 /* Shifts value so that sum m value is moment. */
 static void shift_to(size_t n, const double *m, double moment, double *value)
 {
-  const double by = (moment - gx_vector_dot(n, m, value)) / gx_vector_sum(n, m);
+  const double mass = gx_vector_sum(n, m);
+  const double by = mass > 0 ? (moment - gx_vector_dot(n, m, value)) / mass : 0;
   for (size_t p = 0; p < n; p++) value[p] += by;
 }
 
@@ -146,8 +154,7 @@ void gx_reconstruction_value(struct gx_reconstruction *r, double *const *value)
   const struct gx_particles *particles = r->particles;
   r->fit->kind->take(r->fit, particles->dim, true, value, r->points->v);
   for (int d = 0; d < particles->dim; d++)
-    if (!is_held(r->grid, d))
-      shift_to(r->points->n, r->points->m, gx_vector_dot(particles->n, particles->m, value[d]), r->points->v[d]);
+    if (!is_held(r->grid, d)) shift_to(r->points->n, r->points->m, represented(r, value[d]), r->points->v[d]);
 }
 
 void gx_reconstruction_force(struct gx_reconstruction *r, double *const *b)

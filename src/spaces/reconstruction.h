@@ -31,6 +31,10 @@ struct gx_fit_kind {
 
 struct gx_fit {
   const struct gx_fit_kind *kind;
+  /* Of the last placement: particles in cells whose integrals are left to sums over them, where fields are 0 at the points; NULL:
+   * none. How many such cells there are. */
+  const bool *left; /* [n] */
+  size_t left_cells;
 };
 
 struct gx_reconstruction {

@@ -151,11 +151,11 @@ static void advance(struct gx_space *space, double kick, double strain, double d
   if (kick != 0)
     for (int d = 0; d < mesh->grid.dim; d++) gx_vector_add(mesh->grid.stored, kick, mesh->a[d], mesh->v[d]);
   double momentum[GX_MAX_DIM];
-  gx_mesh_expect_momentum(mesh, kick, momentum);
+  gx_mesh_momentum_expect(mesh, kick, momentum);
   if (kick != 0 && mesh->affine) gx_affine_gather(mesh);
   gx_exchange_lend(&mesh->exchange, mesh->v, kick != 0 ? mesh->a : NULL);
   gx_blocks_each(&mesh->blocks, advance_block, &advance);
-  if (kick != 0) gx_mesh_keep_momentum(mesh, momentum, space->particles->v);
+  if (kick != 0) gx_mesh_momentum_keep(mesh, momentum, space->particles->v);
 }
 
 /* F <- (I - span L)^-1 F with L the velocity gradient. */
@@ -286,8 +286,8 @@ static void rates(struct gx_space *space, double *const *rate)
   gx_exchange_lend(&mesh->exchange, mesh->v, mesh->a);
   gx_blocks_each(&mesh->blocks, rates_of_block, &rates);
   double impulse[GX_MAX_DIM];
-  gx_mesh_moment(mesh, mesh->a, impulse);
-  gx_mesh_keep_momentum(mesh, impulse, rate + dim);
+  gx_mesh_momentum_of(mesh, mesh->a, impulse);
+  gx_mesh_momentum_keep(mesh, impulse, rate + dim);
   rate += 2 * dim + dim * dim * (1 + mesh->options.stress_rate);
   if (!mesh->options.each_step)
     for (int d = 0; d < dim; d++)

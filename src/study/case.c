@@ -412,6 +412,7 @@ struct gx_result gx_case_run_by(const struct gx_case *one, struct gx_team *team)
   struct gx_result result = {.outcome = {.status = GX_OK, .particle = -1},
                              .dt = NAN,
                              .stable_dt = NAN,
+                             .left_cells = NAN,
                              .probe = -1,
                              .restitution = NAN,
                              .ns_per_particle_step = NAN,
@@ -425,6 +426,7 @@ struct gx_result gx_case_run_by(const struct gx_case *one, struct gx_team *team)
     bool done = march(&run) == GX_OK;
     result.measured = *gx_measure_result(run.measure);
     if (run.restitution) result.restitution = gx_restitution_value(run.restitution);
+    if (run.simulation.space_options.reconstructed) result.left_cells = (double)run.simulation.space->left_cells;
     if (run.budget) result.budget = gx_budget_mean(run.budget);
     result.frequency = run.simulation.frequency;
     result.kh = 2 * M_PI * run.simulation.problem_options.mode / run.simulation.space_options.cells[0];

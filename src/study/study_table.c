@@ -130,6 +130,7 @@ static void put_case(struct cursor *at, const struct gx_case *one, const struct 
   for (int q = 0; q < GX_QUANTITIES; q++) put_spectrum(at, result, (enum gx_quantity)q);
   put_frequency(at, result);
   put_budget(at, "result.", &result->budget, ran);
+  put_count(at, "result.quadrature.left_cells", result->left_cells);
   put_real(at, "result.stable_dt", "s", ran ? result->stable_dt : NAN);
   if (!timing) return;
   put_real(at, "result.seconds", "s", ran ? result->seconds : NAN);

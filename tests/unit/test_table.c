@@ -205,6 +205,7 @@ static const char *const result_columns[] = {
     "result.budget.l2.velocity",
     "result.budget.l2.increment",
     "result.budget.l2.time",
+    "result.quadrature.left_cells",
     "result.stable_dt",
     "result.seconds",
     "result.ns_per_particle_step",
