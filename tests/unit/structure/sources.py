@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Each source says its licence first, then what it does, and stays under 500 lines. usage: sources.py SOURCE_ROOT"""
+"""Each source says its licence first, then what it does, and stays under 500 lines; no leftovers of patches and editors lie about.
+usage: sources.py SOURCE_ROOT"""
 import pathlib
 import sys
 
@@ -9,6 +10,9 @@ bad = []
 files = sorted(p for top in ("include", "src", "splines", "tests", "runs", ".ci") for p in (root / top).rglob("*") if p.is_file())
 count = 0
 for path in files:
+    if path.suffix in (".orig", ".rej") or path.name.endswith("~"):
+        bad.append(f"{path.relative_to(root)}: a leftover")
+        continue
     c = path.suffix in (".c", ".h")
     lines = path.read_bytes().decode(errors="replace").splitlines()
     script = path.suffix in (".py", ".sh") or (lines and lines[0].startswith("#!"))
