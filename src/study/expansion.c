@@ -231,15 +231,17 @@ static bool take_case(struct expansion *expansion, const struct combination *com
     if (!expansion->held[id]) expansion->held[id] = combination->held[id];
     if (value[id].type != GX_NULL) expansion->applied[id] = true;
   }
+  bool fits = true;
   for (int id = 0; id < GX_PARAMETERS; id++) {
     char objection[GX_OBJECTION_LENGTH];
     if (!combination->held[id] || gx_parameter_fits((enum gx_parameter_id)id, value, objection)) continue;
     struct gx_item *item = item_of(combination, id);
     if (!item->refused) gx_errors_add(expansion->settings->errors, item->place, "%s: %s", gx_parameters[id].path, objection);
     item->refused = true;
-    return true;
+    fits = false;
+    if (id == GX_PROBLEM_DIMENSION) break; /* which others are judged by */
   }
-  return keep(expansion, value);
+  return !fits || keep(expansion, value);
 }
 
 static void find_axes(const struct gx_settings *settings, struct gx_study *study)

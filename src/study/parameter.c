@@ -372,6 +372,15 @@ bool gx_parameter_fits(enum gx_parameter_id id, const struct gx_value *value, ch
     snprintf(objection, GX_OBJECTION_LENGTH, "%.15g is not after time.start, %.15g", value[id].real, value[GX_TIME_START].real);
     return false;
   }
+  if (id == GX_BODY_FILE && value[id].type == GX_TEXT && !gx_rules_is_file_name(value[id].text)) {
+    snprintf(objection, GX_OBJECTION_LENGTH, "%s names no file; give the name of a CSV or HDF5 file",
+             gx_errors_quote(value[id].text).text);
+    return false;
+  }
+  if (id == GX_BODY_SHAPE && gx_rules_file_applies(value) && value[GX_BODY_FILE].type == GX_NULL) {
+    snprintf(objection, GX_OBJECTION_LENGTH, "points are read from body.file; name a CSV or HDF5 file there");
+    return false;
+  }
   if (id == GX_PROBLEM_DIMENSION) return dimension_fits(problem, value[id].integer, objection);
   if (id == GX_PROBLEM_BOUNDARY && value[id].type == GX_TEXT) return boundary_fits(problem, value[id].text, objection);
   if (!parameter->well_formed || value[id].type == GX_NULL || parameter->well_formed(value[id].text, value)) return true;

@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "errors.h"
 #include "number.h"
 
 enum { MOST_POINTS = 10000000, LINE = 1024, COLUMNS = GX_MAX_DIM + 1 };
@@ -79,6 +78,10 @@ static char *next_field(struct list *list, char **at, int *column)
   *end = '\0';
   field += strspn(field, " \t");
   while (end > field && (end[-1] == ' ' || end[-1] == '\t')) *--end = '\0';
+  if (end - field > 1 && *field == '"' && end[-1] == '"') { /* as spreadsheets write them */
+    *--end = '\0';
+    field++;
+  }
   *column = (int)(field - list->text) + 1;
   return field;
 }
@@ -118,6 +121,10 @@ static void read_header(struct list *list)
   for (int column = 0; column <= dim; column++)
     if (!found[column])
       gx_errors_add(&list->errors, place, "there is no column '%s'; name it in the header", name_of(dim, column));
+  if (list->columns) return;
+  list->errors.count = 0; /* its fields are no names at all: one message says it */
+  gx_errors_add(&list->errors, place, "no column is named x%s%s or volume; begin with the line x%s%s,volume",
+                dim > 1 ? ", y" : "", dim > 2 ? ", z" : "", dim > 1 ? ",y" : "", dim > 2 ? ",z" : "");
 }
 
 static bool make_room(struct list *list)
@@ -201,29 +208,34 @@ static int read_hdf5(struct list *list, const char *path, const struct gx_array_
 
 static bool is_hdf5(FILE *file)
 {
-  static const char signature[] = "\x89HDF\r\n\x1a\n";
-  char bytes[sizeof signature - 1];
-  size_t count = fread(bytes, 1, sizeof bytes, file);
-  rewind(file);
-  return count == sizeof bytes && !memcmp(bytes, signature, sizeof bytes);
+  int first = getc(file);
+  ungetc(first, file); /* a pipe cannot go back further */
+  return first == 0x89;
 }
 
-/* Returns 0, or -1 after messages. */
-static int read_list(const char *path, struct gx_points *points, const struct gx_array_reader *hdf5, FILE *out)
+static void check_sum(struct list *list)
+{
+  double sum = 0;
+  for (size_t p = 0; p < list->points->n; p++) sum += list->points->V0[p];
+  if (sum > 1 + 1e-6)
+    gx_errors_add(&list->errors, (struct gx_place){.line = 0},
+                  "the volumes add up to %g, more than that of the domain, 1; give smaller ones", sum);
+}
+
+/* file: of that path, closed here. Returns 0, or -1 after messages. */
+static int read_list(const char *path, FILE *file, struct gx_points *points, const struct gx_array_reader *hdf5, FILE *out)
 {
   struct gx_place whole = {.line = 0};
   struct list list = {.points = points};
   int failed = 0;
-  FILE *file = fopen(path, "rb");
-  if (!file)
-    gx_errors_add(&list.errors, whole, "cannot be opened: %s", strerror(errno));
-  else if (!is_hdf5(file))
+  if (!is_hdf5(file))
     read_csv(&list, file);
   else if (hdf5)
     failed = read_hdf5(&list, path, hdf5, out);
   else
     gx_errors_add(&list.errors, whole, "is an HDF5 file, which cannot be read here; give the points as CSV");
-  if (file) fclose(file);
+  fclose(file);
+  if (!failed && !list.errors.count && !list.errors.out_of_memory) check_sum(&list);
   if (list.errors.count || list.errors.out_of_memory) {
     gx_errors_print(&list.errors, path, NULL, out);
     failed = -1;
@@ -251,38 +263,70 @@ static char *path_from(const char *runfile, const char *name)
   return path;
 }
 
-/* The list of a path in that dimension, read if it is new. NULL when memory runs out; failed: -1 after messages. */
-static struct gx_points *find(struct gx_study *study, char *path, int dim, const struct gx_array_reader *hdf5, int *failed,
-                              FILE *out)
+/* Where the run file names that list. */
+static struct gx_item *item_of(const struct gx_settings *settings, const char *name)
 {
-  for (size_t i = 0; i < study->point_lists; i++)
-    if (study->points[i]->dim == dim && !strcmp(study->points[i]->path, path)) return study->points[i];
+  for (const struct gx_layer *layer = &settings->base; layer; layer = layer == &settings->base ? settings->cases : layer->next) {
+    struct gx_setting *setting = gx_setting_find(layer, GX_BODY_FILE);
+    for (size_t i = 0; setting && i < setting->count; i++)
+      if (setting->item[i].value.text == name) return &setting->item[i]; /* each has its own copy */
+  }
+  return NULL;
+}
+
+static void report_closed(struct gx_settings *settings, const char *name, const char *path, const char *why)
+{
+  struct gx_item *item = item_of(settings, name);
+  if (item && item->refused) return;
+  if (item) item->refused = true;
+  gx_errors_add(settings->errors, item ? item->place : (struct gx_place){.line = 0}, "body.file: '%s' cannot be opened: %s", path,
+                why);
+}
+
+/* A new list of the study, empty; NULL when memory runs out. */
+static struct gx_points *add_list(struct gx_study *study, const char *path, int dim)
+{
   struct gx_points **more = realloc(study->points, (study->point_lists + 1) * sizeof *more);
   if (more) study->points = more;
   struct gx_points *points = more ? calloc(1, sizeof *points) : NULL;
   if (!points) return NULL;
   *points = (struct gx_points){.dim = dim, .path = strdup(path)};
   study->points[study->point_lists++] = points;
-  if (!points->path) return NULL;
-  if (read_list(path, points, hdf5, out)) *failed = -1;
-  return points;
+  return points->path ? points : NULL;
 }
 
-int gx_points_read(struct gx_study *study, const char *runfile, const struct gx_array_reader *hdf5, FILE *out)
+/* The list of that name and path in a case's dimension, read if it is new. Returns 0, or -1 after messages. */
+static int give(struct gx_settings *settings, struct gx_case *one, const char *path, const struct gx_array_reader *hdf5,
+                FILE *out)
 {
+  struct gx_study *study = settings->study;
+  int dim = (int)one->value[GX_PROBLEM_DIMENSION].integer;
+  for (size_t i = 0; i < study->point_lists && !one->points; i++)
+    if (study->points[i]->dim == dim && !strcmp(study->points[i]->path, path)) one->points = study->points[i];
+  if (one->points) return 0;
+  FILE *file = fopen(path, "rb");
+  if (!file) {
+    report_closed(settings, one->value[GX_BODY_FILE].text, path, strerror(errno));
+    return -1;
+  }
+  struct gx_points *points = add_list(study, path, dim);
+  one->points = points;
+  if (points) return read_list(path, file, points, hdf5, out);
+  fclose(file);
+  settings->errors->out_of_memory = true;
+  return -1;
+}
+
+int gx_points_read(struct gx_settings *settings, const char *runfile, const struct gx_array_reader *hdf5, FILE *out)
+{
+  struct gx_study *study = settings->study;
   int failed = 0;
-  for (size_t i = 0; i < study->count; i++) {
+  for (size_t i = 0; i < study->count && !settings->errors->out_of_memory; i++) {
     struct gx_case *one = &study->cases[i];
-    const struct gx_value *shape = &one->value[GX_BODY_SHAPE], *name = &one->value[GX_BODY_FILE];
-    if (shape->type != GX_TEXT || strcmp(shape->text, "points") != 0) continue;
-    if (name->type != GX_TEXT) {
-      fprintf(out, "%s: body.file is required with body.shape: points; name a CSV or HDF5 file\n", runfile);
-      return -1;
-    }
-    char *path = path_from(runfile, name->text);
-    one->points = path ? find(study, path, (int)one->value[GX_PROBLEM_DIMENSION].integer, hdf5, &failed, out) : NULL;
-    if (!one->points) fprintf(out, "%s: out of memory\n", runfile);
-    if (!one->points) failed = -1;
+    if (one->value[GX_BODY_FILE].type != GX_TEXT) continue;
+    char *path = path_from(runfile, one->value[GX_BODY_FILE].text);
+    if (!path) settings->errors->out_of_memory = true;
+    if (!path || give(settings, one, path, hdf5, out)) failed = -1;
     free(path);
   }
   return failed;

@@ -2,6 +2,7 @@
 /* Rules that the parameter table refers to: choices, where parameters apply, defaults that depend on others, free texts. */
 #include "rules.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -340,4 +341,17 @@ bool gx_rules_numbers_well_formed(const char *text, const struct gx_value *value
 bool gx_rules_place_well_formed(const char *text, const struct gx_value *value)
 {
   return are_numbers(text, value, 0, 1);
+}
+
+bool gx_rules_edges_well_formed(const char *text, const struct gx_value *value)
+{
+  return are_numbers(text, value, DBL_MIN, 1);
+}
+
+/* Not empty, and fit for messages. */
+bool gx_rules_is_file_name(const char *text)
+{
+  const char *s = text;
+  while ((unsigned char)*s >= 0x20 && *s != 0x7F) s++;
+  return *text && !*s;
 }

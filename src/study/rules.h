@@ -78,5 +78,7 @@ struct gx_value gx_rules_projection_default(const struct gx_value *value);
 bool gx_rules_active_well_formed(const char *text, const struct gx_value *value);
 bool gx_rules_numbers_well_formed(const char *text, const struct gx_value *value); /* one a dimension */
 bool gx_rules_place_well_formed(const char *text, const struct gx_value *value);   /* the same, from 0 to 1 */
+bool gx_rules_edges_well_formed(const char *text, const struct gx_value *value);   /* the same, above 0 */
+bool gx_rules_is_file_name(const char *text);
 
 #endif

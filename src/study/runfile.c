@@ -57,7 +57,7 @@ static char *read_source(const char *path, struct gx_errors *errors, size_t *len
   return source;
 }
 
-static void read_study(struct gx_settings *settings, size_t length, size_t sets, const char *const *set)
+static void read_cases(struct gx_settings *settings, size_t length, size_t sets, const char *const *set)
 {
   struct gx_errors *errors = settings->errors;
   const struct gx_yaml *root = gx_yaml_read(&settings->arena, errors, settings->study->source, length, 0);
@@ -76,21 +76,22 @@ static struct gx_study *read_text(const char *name, char *source, size_t length,
                                   const struct gx_array_reader *hdf5, struct gx_errors *errors, FILE *out)
 {
   struct gx_study *study = calloc(1, sizeof *study);
+  bool bad = false;
   if (study) {
     struct gx_settings settings = {.errors = errors, .study = study, .base.place = {.line = 1, .column = 1}};
     settings.base.tail = &settings.base.first;
     settings.cases_tail = &settings.cases;
     study->source = source;
-    if (source) read_study(&settings, length, sets, set);
+    if (source) read_cases(&settings, length, sets, set);
+    if (gx_points_read(&settings, name, hdf5, out)) bad = true;
     gx_arena_free(&settings.arena);
   } else {
     errors->out_of_memory = true;
     free(source);
   }
-  bool bad = errors->count || errors->out_of_memory;
-  if (bad) gx_errors_print(errors, name, set, out);
+  bad = bad || errors->count || errors->out_of_memory;
+  gx_errors_print(errors, name, set, out);
   gx_errors_free(errors);
-  if (study && gx_points_read(study, name, hdf5, out)) bad = true;
   if (!bad) return study;
   gx_runfile_free(study);
   return NULL;

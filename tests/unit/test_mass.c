@@ -17,7 +17,7 @@
 static struct points scatter_points(const struct gx_basis *basis, int dim, int cells, bool periodic, int degree, size_t n,
                                     double **m)
 {
-  double *x[GX_MAX_DIM], *half[GX_MAX_DIM];
+  double *x[GX_MAX_DIM] = {NULL}, *half[GX_MAX_DIM] = {NULL};
   uint64_t seed = 29;
   for (int d = 0; d < dim; d++) {
     x[d] = malloc(n * sizeof(double));

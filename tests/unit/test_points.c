@@ -100,7 +100,8 @@ static void every_error_of_a_list_is_reported_at_its_place(void **state)
   CSV("", 3, " holds no point; give a row a point below the header x,y,z,volume");
   CSV("x,y,volume\n \n", 2, " holds no point; give a row a point below the header x,y,volume");
   CSV("x,y,volume\n0.1,\0000.2,0.1\n", 2, "2:1: holds a NUL byte: not a list of points");
-  expect("none.csv", 2, (const char *const[]){" cannot be opened: No such file or directory", NULL});
+  CSV("X;Y;volume\n0,5;0,5;0,1\n", 2, "1:1: no column is named x, y or volume; begin with the line x,y,volume");
+  CSV("x,volume\n0.25,0.5\n0.5,0.75\n", 1, " the volumes add up to 1.25, more than that of the domain, 1; give smaller ones");
   char wide[3000] = "x,volume\n";
   memset(wide + 9, '0', sizeof wide - 9);
   expect_csv(wide, sizeof wide, 1,
@@ -122,18 +123,23 @@ static void errors_without_end_end(void **state)
   free(text);
 }
 
-static void a_shape_of_points_needs_a_file(void **state)
+/* Once, where the run file names it, whatever the number of cases that ask for it. */
+static void a_list_that_is_not_there_is_an_error_of_the_run_file(void **state)
 {
   (void)state;
-  const char text[] = "{problem.name: free-flight, body.shape: points}";
-  char *errors, path[64];
+  const char text[] = "{problem: {name: free-flight, dimension: [1, 2]},\n body.file: [none.csv, other.csv]}";
+  char *errors, path[64], expected[512];
   size_t length;
   write_file("run.yaml", text, sizeof text - 1);
   snprintf(path, sizeof path, "%s/run.yaml", folder);
+  snprintf(expected, sizeof expected,
+           "%s:2:14: body.file: '%s/none.csv' cannot be opened: No such file or directory\n"
+           "%s:2:24: body.file: '%s/other.csv' cannot be opened: No such file or directory\n",
+           path, folder, path, folder);
   FILE *out = open_memstream(&errors, &length);
   assert_null(gx_runfile_read(path, 0, NULL, &gx_hdf5_arrays, out));
   fclose(out);
-  assert_non_null(strstr(errors, "body.file is required"));
+  assert_string_equal(errors, expected);
   free(errors);
 }
 
@@ -170,7 +176,7 @@ static void check_particles(const char *list, int dim)
 static void csv_gives_its_particles(void **state)
 {
   (void)state;
-  static const char *const header[] = {"volume, x", "\xef\xbb\xbfx,volume,y", "z,y,x,volume"};
+  static const char *const header[] = {"volume, \"x\"", "\xef\xbb\xbfx,volume,y", "z,y,x,volume"};
   static const int order[][4] = {{3, 0}, {0, 3, 1}, {2, 1, 0, 3}};
   for (int dim = 1; dim <= 3; dim++) {
     char text[512], *at = text + sprintf(text, "%s\r\n\r\n", header[dim - 1]);
@@ -182,6 +188,20 @@ static void csv_gives_its_particles(void **state)
     write_file("list.csv", text, (size_t)(at - text));
     check_particles("list.csv", dim);
   }
+}
+
+static void a_pipe_gives_its_particles(void **state)
+{
+  (void)state;
+  const char text[] = "volume,x\n0.001,0.25\n0.008,\"0.5\"\n0.027,0\n0.000125,1\n";
+  char name[32];
+  int end[2];
+  assert_int_equal(pipe(end), 0);
+  assert_int_equal(write(end[1], text, sizeof text - 1), sizeof text - 1);
+  close(end[1]);
+  snprintf(name, sizeof name, "/dev/fd/%d", end[0]);
+  check_particles(name, 1);
+  close(end[0]);
 }
 
 /* value NULL: a dataset that claims `rows` rows and holds none */
@@ -255,8 +275,9 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_error_of_a_list_is_reported_at_its_place),
       cmocka_unit_test(errors_without_end_end),
-      cmocka_unit_test(a_shape_of_points_needs_a_file),
+      cmocka_unit_test(a_list_that_is_not_there_is_an_error_of_the_run_file),
       cmocka_unit_test(csv_gives_its_particles),
+      cmocka_unit_test(a_pipe_gives_its_particles),
       cmocka_unit_test(hdf5_gives_its_particles),
       cmocka_unit_test(errors_of_datasets_are_reported),
   };
