@@ -96,8 +96,8 @@ struct gx_value gx_parameter_default(enum gx_parameter_id id);
 /* Fills null values with the defaults that the problem has of its own (gx_problem.standard). value: as below. */
 void gx_parameter_own(struct gx_value *value);
 
-/* Completes a case: fills null values with defaults, the problem's own first, then nulls what does not apply. value: [GX_PARAMETERS]; problem.name must be
- * that of a problem, the others null or within range. */
+/* Completes a case: fills null values with defaults, the problem's own first, then nulls what does not apply.
+ * value: [GX_PARAMETERS]; problem.name must be that of a problem, the others null or within range. */
 void gx_parameter_resolve(struct gx_value *value);
 
 enum { GX_OBJECTION_LENGTH = 256 };

@@ -14,6 +14,7 @@
 #include "../core/vector.h"
 #include "mass_band.h"
 #include "mass_kronecker.h"
+#include "stencil.h"
 
 struct gx_mass_cg {
   const struct gx_grid *grid;
@@ -69,22 +70,18 @@ void gx_mass_cg_free(struct gx_mass_cg *cg)
 /* diagonal[i] += sum_p m_p S_ip^2 */
 GX_CORE void add_diagonal(const int dim, const struct gx_weights *w, const double *m, double *restrict diagonal)
 {
-  const int s = w->support, rows[] = {1, dim > 1 ? s : 1, dim > 2 ? s : 1};
-  for (size_t p = 0; p < w->n; p++)
-    for (int k2 = 0; k2 < rows[2]; k2++)
-      for (int k1 = 0; k1 < rows[1]; k1++) {
-        const int number[] = {0, k1, k2};
-        double row = 1;
-        size_t node = (size_t)w->first[0][p];
-        for (int d = 1; d < dim; d++) {
-          row *= w->S[d][(size_t)number[d] * w->n + p];
-          node += (size_t)(w->first[d][p] + number[d]) * w->stride[d];
-        }
-        for (int k = 0; k < s; k++) {
-          double S = row * w->S[0][(size_t)k * w->n + p];
-          diagonal[node + (size_t)k] += m[p] * (S * S);
-        }
+  for (size_t p = 0; p < w->n; p++) {
+    struct gx_stencil stencil;
+    gx_stencil_load(dim, w->support, w, p, false, &stencil);
+    GX_STENCIL_ROWS(dim, w->support)
+    {
+      const struct gx_stencil_row row = gx_stencil_row(dim, w, &stencil, k1, k2, false);
+      for (int k = 0; k < w->support; k++) {
+        double S = row.W * stencil.S[0][k];
+        diagonal[row.node + (size_t)k] += m[p] * (S * S);
       }
+    }
+  }
 }
 
 void gx_mass_cg_prepare(struct gx_mass_cg *cg, const struct gx_weights *weights, const double *m)
@@ -160,7 +157,8 @@ static bool begin(struct gx_mass_cg *cg, double *const *field, struct progress *
   return any;
 }
 
-/* One iteration. Returns -1 when the curvature along a direction is not positive or a number overflows, else whether any component goes on. */
+/* One iteration. Returns -1 when the curvature along a direction is not positive or a number overflows, else whether any component
+ * goes on. */
 static int iterate(struct gx_mass_cg *cg, double *const *field, struct progress *progress)
 {
   const size_t stored = cg->grid->stored;

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Set-up, weights, projection and acceleration that standard and moving-mesh MPM share. */
+/* Set-up, projection and acceleration that standard and moving-mesh MPM share. */
 #include "mesh.h"
 
 #include <limits.h>
-#include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
@@ -102,62 +101,6 @@ void gx_mesh_free(struct gx_space *space)
   gx_exchange_free(&mesh->exchange);
   free(mesh->block);
   free(mesh);
-}
-
-/* Farther than this, positions on a periodic grid mean nothing; past a fixed end, more than this is not round-off. */
-static const double far = 1e6, edge = 1e-12;
-
-static enum gx_status report_stray(struct gx_mesh *mesh, const struct gx_blocks_stray *stray)
-{
-  const int d = stray->d;
-  const size_t p = stray->particle;
-  const double x = mesh->blocks.x[d][p];
-  struct gx_outcome *outcome = mesh->space.outcome;
-  if (stray->wide)
-    return gx_status_set(outcome, GX_TANGLED, (long)p, "the domain of a particle is %.4g cells wide; %s needs 0 to 1",
-                         2 * mesh->blocks.half[d][p] * mesh->grid.axis[d].cells, mesh->options.basis->name);
-  if (mesh->grid.axis[d].periodic || !isfinite(x))
-    return gx_status_set(outcome, GX_UNSTABLE, (long)p, "the position of a particle is %g", x);
-  return gx_status_set(outcome, GX_LEFT_DOMAIN, (long)p, "a particle is at %.6g, outside the domain [0, 1]", x);
-}
-
-/* Half lengths of particle domains along d for a basis that needs them: stretched by F, as they were, or at reference. */
-static const double *domains(struct gx_mesh *mesh, int d, double *const *F, bool frozen)
-{
-  const struct gx_particles *particles = mesh->space.particles;
-  if (!mesh->options.basis->deforms || !(F || frozen)) return particles->half_length[d];
-  if (!frozen)
-    for (size_t p = 0; p < particles->n; p++) mesh->half[d][p] = F[d * mesh->grid.dim + d][p] * particles->half_length[d][p];
-  return mesh->half[d];
-}
-
-static enum gx_status weigh(struct gx_mesh *mesh, double *const *u, double *const *F, bool frozen)
-{
-  double low[GX_MAX_DIM], high[GX_MAX_DIM];
-  for (int d = 0; d < mesh->grid.dim; d++) {
-    const bool periodic = mesh->grid.axis[d].periodic;
-    low[d] = periodic ? -far : -edge;
-    high[d] = periodic ? far : 1 + edge;
-    mesh->blocks.half[d] = domains(mesh, d, F, frozen);
-  }
-  struct gx_blocks_stray stray = gx_blocks_place(&mesh->blocks, u, low, high);
-  if (stray.d >= 0) return report_stray(mesh, &stray);
-  if (mesh->affine) gx_affine_weigh(mesh, mesh->blocks.x);
-  if (!mesh->reconstruction) return GX_OK;
-  GX_TRY(gx_reconstruction_place(mesh->reconstruction, mesh->blocks.x));
-  const size_t left = mesh->reconstruction->fit->left_cells;
-  if (left > mesh->space.left_cells) mesh->space.left_cells = left;
-  return GX_OK;
-}
-
-enum gx_status gx_mesh_weigh(struct gx_mesh *mesh, double *const *u, double *const *F)
-{
-  return weigh(mesh, u, F, false);
-}
-
-enum gx_status gx_mesh_weigh_frozen(struct gx_mesh *mesh, double *const *u)
-{
-  return weigh(mesh, u, NULL, true);
 }
 
 GX_CLONES static void divide_by_mass(size_t nodes, const double *restrict mass, double *restrict field)
@@ -422,49 +365,37 @@ enum gx_status gx_mesh_accelerate(struct gx_mesh *mesh, double t, long (*load)(s
   return gx_mesh_solve(mesh, mesh->a);
 }
 
+struct opening {
+  struct gx_mesh *mesh;
+  double *const *from, *const *to; /* [dim][n] m */
+  double span;                     /* s */
+};
+
+static void open_block(void *context, struct gx_block *block)
+{
+  const struct opening *opening = context;
+  gx_exchange_gather(&opening->mesh->exchange, block, NULL, block->v, NULL);
+  for (int d = 0; d < opening->mesh->grid.dim; d++) {
+    const double *from = opening->from[d] + block->from, *v = block->v[d];
+    double *to = opening->to[d] + block->from;
+    for (size_t p = 0; p < block->n; p++) to[p] = from[p] + opening->span * v[p];
+  }
+}
+
+void gx_mesh_open(struct gx_mesh *mesh, enum gx_primitive primitive, double span)
+{
+  double *const *u = mesh->space.particles->u, *const *y = mesh->opened;
+  struct opening opening = {mesh, primitive == GX_OPEN ? u : y, primitive == GX_OPEN ? y : u, span};
+  gx_exchange_lend(&mesh->exchange, mesh->v, NULL);
+  gx_blocks_each(&mesh->blocks, open_block, &opening);
+}
+
 double gx_mesh_kinetic(const struct gx_space *space)
 {
   const struct gx_mesh *mesh = (const struct gx_mesh *)space;
   double twice = 0;
   for (int d = 0; d < mesh->grid.dim; d++) twice += gx_vector_square(mesh->grid.stored, mesh->mass, mesh->v[d]);
   return 0.5 * twice;
-}
-
-struct gathering {
-  struct gx_mesh *mesh;
-  double *const *value, *const *gradient; /* NULL: not this one */
-};
-
-static void gather_block(void *context, struct gx_block *block)
-{
-  const struct gathering *gathering = context;
-  const int dim = gathering->mesh->grid.dim;
-  double *value[GX_MAX_DIM], *gradient[GX_MAX_TENSOR];
-  if (gathering->value) gx_block_part(block, dim, gathering->value, value);
-  if (gathering->gradient) gx_block_part(block, dim * dim, gathering->gradient, gradient);
-  gx_exchange_gather(&gathering->mesh->exchange, block, NULL, gathering->value ? value : NULL,
-                     gathering->gradient ? gradient : NULL);
-}
-
-static void gather(struct gx_mesh *mesh, double *const *field, double *const *value, double *const *gradient)
-{
-  struct gathering gathering = {mesh, value, gradient};
-  if (mesh->lattice) {
-    gx_lattice_gather(mesh->lattice, field, value, gradient);
-    return;
-  }
-  gx_exchange_lend(&mesh->exchange, field, NULL);
-  gx_blocks_each(&mesh->blocks, gather_block, &gathering);
-}
-
-void gx_mesh_gather(struct gx_mesh *mesh, double *const *field, double *const *value)
-{
-  gather(mesh, field, value, NULL);
-}
-
-void gx_mesh_gather_gradient(struct gx_mesh *mesh, double *const *field, double *const *gradient)
-{
-  gather(mesh, field, NULL, gradient);
 }
 
 void gx_mesh_particle_acceleration(struct gx_space *space, double *const *a)

@@ -69,6 +69,8 @@ void gx_mesh_momentum_expect(const struct gx_mesh *mesh, double kick, double *mo
 void gx_mesh_momentum_keep(const struct gx_mesh *mesh, const double *momentum, double *const *v);
 /* Sum of mass times field over the nodes. moment: [dim] */
 void gx_mesh_momentum_of(const struct gx_mesh *mesh, double *const *field, double *moment);
+/* Particles: GX_OPEN: y = u + span S v; GX_CLOSE: u = y + span S v. */
+void gx_mesh_open(struct gx_mesh *mesh, enum gx_primitive primitive, double span);
 /* Nodal fields at all particles, and their gradients. */
 void gx_mesh_gather(struct gx_mesh *mesh, double *const *field, double *const *value);
 void gx_mesh_gather_gradient(struct gx_mesh *mesh, double *const *field, double *const *gradient);

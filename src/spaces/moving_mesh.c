@@ -265,30 +265,6 @@ static void advance(struct gx_space *space, double kick, double span, double dri
   if (kick != 0) gx_mesh_momentum_keep(mesh, momentum, space->particles->v);
 }
 
-static void open_block(void *context, struct gx_block *block)
-{
-  const struct following *following = context;
-  const struct gx_mesh *mesh = following->mesh;
-  gx_exchange_gather(&mesh->exchange, block, NULL, block->v, NULL);
-  for (int d = 0; d < mesh->grid.dim; d++) {
-    const double *from = mesh->space.particles->u[d] + block->from;
-    double *to = mesh->opened[d] + block->from;
-    for (size_t p = 0; p < block->n; p++) to[p] = from[p] + following->drift * block->v[d][p];
-  }
-}
-
-static void close_block(void *context, struct gx_block *block)
-{
-  const struct following *following = context;
-  const struct gx_mesh *mesh = following->mesh;
-  gx_exchange_gather(&mesh->exchange, block, NULL, block->v, NULL);
-  for (int d = 0; d < mesh->grid.dim; d++) {
-    const double *from = mesh->opened[d] + block->from;
-    double *to = mesh->space.particles->u[d] + block->from;
-    for (size_t p = 0; p < block->n; p++) to[p] = from[p] + following->drift * block->v[d][p];
-  }
-}
-
 /* Weights and mass never change, so that most of these have nothing to do. */
 static enum gx_status twofold(struct gx_space *space, enum gx_primitive primitive, double span)
 {
@@ -302,10 +278,7 @@ static enum gx_status twofold(struct gx_space *space, enum gx_primitive primitiv
     double *y = mesh->opened_nodes[d], *u = mesh->u[d];
     for (size_t i = 0; i < mesh->grid.stored; i++) *(open ? &y[i] : &u[i]) = (open ? u[i] : y[i]) + span * mesh->v[d][i];
   }
-  if (!mesh->options.each_step) return GX_OK;
-  struct following following = {mesh, 0, span};
-  gx_exchange_lend(&mesh->exchange, mesh->v, NULL);
-  gx_blocks_each(&mesh->blocks, open ? open_block : close_block, &following);
+  if (mesh->options.each_step) gx_mesh_open(mesh, primitive, span);
   return GX_OK;
 }
 

@@ -8,25 +8,7 @@
 typedef double quad __attribute__((vector_size(32)));
 typedef quad node __attribute__((may_alias)); /* in memory that is doubles elsewhere */
 
-/* Calls core(dim, support, weights, ...) with constants where the support is a common one. */
-#define SPECIALISE(core, weights, ...)                                                                                           \
-  do {                                                                                                                           \
-    const struct gx_weights w = *(weights);                                                                                      \
-    switch (16 * w.dim + w.support) {                                                                                            \
-      ONE_CASE(2, 2, core, __VA_ARGS__)                                                                                          \
-      ONE_CASE(2, 3, core, __VA_ARGS__)                                                                                          \
-      ONE_CASE(2, 4, core, __VA_ARGS__)                                                                                          \
-      ONE_CASE(3, 2, core, __VA_ARGS__)                                                                                          \
-      ONE_CASE(3, 3, core, __VA_ARGS__)                                                                                          \
-      ONE_CASE(3, 4, core, __VA_ARGS__)                                                                                          \
-    default:                                                                                                                     \
-      GX_FOR_DIM(w.dim, core(dim, w.support, &w, __VA_ARGS__))                                                                   \
-    }                                                                                                                            \
-  } while (0)
-#define ONE_CASE(dim, support, core, ...)                                                                                        \
-  case 16 * dim + support:                                                                                                       \
-    core(dim, support, &w, __VA_ARGS__);                                                                                         \
-    break;
+#define NO_LINES(core, ...) /* in 1-D nothing is packed */
 
 /* Components of particle p. Not a function: functions do not return vectors that some machines lack. */
 #define LOAD(count, component, p)                                                                                                \
@@ -77,11 +59,11 @@ GX_CLONES void gx_packed_scatter(const struct gx_weights *weights, const double 
                                  double *const *T, double *const *body, double *force)
 {
   if (!force)
-    SPECIALISE(scatter, weights, true, m, v, momentum, false, NULL, NULL, NULL);
+    GX_STENCIL_CALL(NO_LINES, scatter, weights, true, m, v, momentum, false, NULL, NULL, NULL);
   else if (!momentum)
-    SPECIALISE(scatter, weights, false, NULL, NULL, NULL, true, T, body, force);
+    GX_STENCIL_CALL(NO_LINES, scatter, weights, false, NULL, NULL, NULL, true, T, body, force);
   else
-    SPECIALISE(scatter, weights, true, m, v, momentum, true, T, body, force);
+    GX_STENCIL_CALL(NO_LINES, scatter, weights, true, m, v, momentum, true, T, body, force);
 }
 
 /* take_a: acceleration: S-sums of a; take_v: velocity: S-sums of v; take_slopes: gradient: D-sums of v. */
@@ -125,18 +107,18 @@ GX_CORE void gather(const int dim, const int s, const struct gx_weights *w, cons
 
 GX_CLONES void gx_packed_gather(const struct gx_weights *weights, const double *nodes, double *const *value)
 {
-  SPECIALISE(gather, weights, false, NULL, NULL, true, nodes, value, false, NULL);
+  GX_STENCIL_CALL(NO_LINES, gather, weights, false, NULL, NULL, true, nodes, value, false, NULL);
 }
 
 GX_CLONES void gx_packed_gather_gradient(const struct gx_weights *weights, const double *nodes, double *const *gradient)
 {
-  SPECIALISE(gather, weights, false, NULL, NULL, false, nodes, NULL, true, gradient);
+  GX_STENCIL_CALL(NO_LINES, gather, weights, false, NULL, NULL, false, nodes, NULL, true, gradient);
 }
 
 GX_CLONES void gx_packed_gather_all(const struct gx_weights *weights, const double *a, const double *v,
                                     double *const *acceleration, double *const *velocity, double *const *gradient)
 {
-  SPECIALISE(gather, weights, true, a, acceleration, true, v, velocity, true, gradient);
+  GX_STENCIL_CALL(NO_LINES, gather, weights, true, a, acceleration, true, v, velocity, true, gradient);
 }
 
 void gx_packed_pack(int count, size_t nodes, const double *const *field, double *packed)

@@ -191,35 +191,11 @@ static void strain_back_block(void *context, struct gx_block *block)
   add_rate_of_stress(mesh, block, span);
 }
 
-static void open_block(void *context, struct gx_block *block)
-{
-  const struct advance *advance = context;
-  const struct gx_mesh *mesh = advance->mesh;
-  gx_exchange_gather(&mesh->exchange, block, NULL, block->v, NULL);
-  for (int d = 0; d < mesh->grid.dim; d++) {
-    const double *from = mesh->space.particles->u[d] + block->from;
-    double *to = mesh->opened[d] + block->from;
-    for (size_t p = 0; p < block->n; p++) to[p] = from[p] + advance->drift * block->v[d][p];
-  }
-}
-
-static void close_block(void *context, struct gx_block *block)
-{
-  const struct advance *advance = context;
-  const struct gx_mesh *mesh = advance->mesh;
-  gx_exchange_gather(&mesh->exchange, block, NULL, block->v, NULL);
-  for (int d = 0; d < mesh->grid.dim; d++) {
-    const double *from = mesh->opened[d] + block->from;
-    double *to = mesh->space.particles->u[d] + block->from;
-    for (size_t p = 0; p < block->n; p++) to[p] = from[p] + advance->drift * block->v[d][p];
-  }
-}
-
 static enum gx_status twofold(struct gx_space *space, enum gx_primitive primitive, double span)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
   struct gx_particles *particles = space->particles;
-  struct advance advance = {mesh, 0, span, span};
+  struct advance advance = {mesh, 0, span, 0};
   gx_mesh_catch_up(mesh);
   switch (primitive) {
   case GX_WEIGHTS_FROZEN:
@@ -231,13 +207,12 @@ static enum gx_status twofold(struct gx_space *space, enum gx_primitive primitiv
   case GX_KICK_NODES:
     for (int d = 0; d < particles->dim; d++) gx_vector_add(mesh->grid.stored, span, mesh->a[d], mesh->v[d]);
     return GX_OK;
-  default: /* GX_STRAIN_BACK, GX_OPEN, GX_CLOSE */
+  case GX_STRAIN_BACK:
     gx_exchange_lend(&mesh->exchange, mesh->v, NULL);
-    gx_blocks_each(&mesh->blocks,
-                   primitive == GX_STRAIN_BACK ? strain_back_block
-                   : primitive == GX_OPEN      ? open_block
-                                               : close_block,
-                   &advance);
+    gx_blocks_each(&mesh->blocks, strain_back_block, &advance);
+    return GX_OK;
+  default:
+    gx_mesh_open(mesh, primitive, span);
     return GX_OK;
   }
 }

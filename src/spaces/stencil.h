@@ -54,4 +54,20 @@ GX_CORE struct gx_stencil_row gx_stencil_row(const int dim, const struct gx_weig
   for (int k2 = 0; k2 < ((dim) > 2 ? (s) : 1); k2++)                                                                             \
     for (int k1 = 0; k1 < ((dim) > 1 ? (s) : 1); k1++)
 
+/* Calls core(dim, support, weights, ...) with both constant where the support is a common one; lines: the cases in 1-D. */
+#define GX_STENCIL_CALL(lines, core, weights, ...)                                                                               \
+  do {                                                                                                                           \
+    const struct gx_weights w = *(weights);                                                                                      \
+    switch (16 * w.dim + w.support) {                                                                                            \
+      lines(core, __VA_ARGS__) GX_STENCIL_CASE(2, 2, core, __VA_ARGS__) GX_STENCIL_CASE(2, 3, core, __VA_ARGS__)                 \
+          GX_STENCIL_CASE(2, 4, core, __VA_ARGS__) GX_STENCIL_CASE(3, 2, core, __VA_ARGS__)                                      \
+              GX_STENCIL_CASE(3, 3, core, __VA_ARGS__) GX_STENCIL_CASE(3, 4, core, __VA_ARGS__) default                          \
+          : GX_FOR_DIM(w.dim, core(dim, w.support, &w, __VA_ARGS__))                                                             \
+    }                                                                                                                            \
+  } while (0)
+#define GX_STENCIL_CASE(dim, support, core, ...)                                                                                 \
+  case 16 * dim + support:                                                                                                       \
+    core(dim, support, &w, __VA_ARGS__);                                                                                         \
+    break;
+
 #endif

@@ -10,34 +10,16 @@
   for (size_t part = (dim) == 1 ? ((n) + 3) / 4 : (n), start = 0; start < part; start++)                                         \
     for (size_t p = start; p < (n); p += part)
 
-/* Calls core(dim, support, weights, ...) with constants where the support is a common one. */
-#define SPECIALISE(core, weights, ...)                                                                                           \
-  do {                                                                                                                           \
-    const struct gx_weights w = *(weights);                                                                                      \
-    switch (16 * w.dim + w.support) {                                                                                            \
-      ONE_CASE(1, 2, core, __VA_ARGS__)                                                                                          \
-      ONE_CASE(1, 3, core, __VA_ARGS__)                                                                                          \
-      ONE_CASE(1, 4, core, __VA_ARGS__)                                                                                          \
-      ONE_CASE(1, 5, core, __VA_ARGS__)                                                                                          \
-      ONE_CASE(1, 6, core, __VA_ARGS__)                                                                                          \
-      ONE_CASE(1, 7, core, __VA_ARGS__)                                                                                          \
-      ONE_CASE(1, 8, core, __VA_ARGS__)                                                                                          \
-      ONE_CASE(1, 9, core, __VA_ARGS__)                                                                                          \
-      ONE_CASE(1, 10, core, __VA_ARGS__)                                                                                         \
-      ONE_CASE(2, 2, core, __VA_ARGS__)                                                                                          \
-      ONE_CASE(2, 3, core, __VA_ARGS__)                                                                                          \
-      ONE_CASE(2, 4, core, __VA_ARGS__)                                                                                          \
-      ONE_CASE(3, 2, core, __VA_ARGS__)                                                                                          \
-      ONE_CASE(3, 3, core, __VA_ARGS__)                                                                                          \
-      ONE_CASE(3, 4, core, __VA_ARGS__)                                                                                          \
-    default:                                                                                                                     \
-      GX_FOR_DIM(w.dim, core(dim, w.support, &w, __VA_ARGS__))                                                                   \
-    }                                                                                                                            \
-  } while (0)
-#define ONE_CASE(dim, support, core, ...)                                                                                        \
-  case 16 * dim + support:                                                                                                       \
-    core(dim, support, &w, __VA_ARGS__);                                                                                         \
-    break;
+#define LINES(core, ...)                                                                                                         \
+  GX_STENCIL_CASE(1, 2, core, __VA_ARGS__)                                                                                       \
+  GX_STENCIL_CASE(1, 3, core, __VA_ARGS__)                                                                                       \
+  GX_STENCIL_CASE(1, 4, core, __VA_ARGS__)                                                                                       \
+  GX_STENCIL_CASE(1, 5, core, __VA_ARGS__)                                                                                       \
+  GX_STENCIL_CASE(1, 6, core, __VA_ARGS__)                                                                                       \
+  GX_STENCIL_CASE(1, 7, core, __VA_ARGS__)                                                                                       \
+  GX_STENCIL_CASE(1, 8, core, __VA_ARGS__)                                                                                       \
+  GX_STENCIL_CASE(1, 9, core, __VA_ARGS__)                                                                                       \
+  GX_STENCIL_CASE(1, 10, core, __VA_ARGS__)
 
 GX_CORE void scatter(const int dim, const int s, const struct gx_weights *w, const double *m, double *const *value,
                      double *restrict total, double *const *moment)
@@ -68,11 +50,11 @@ GX_CLONES void gx_transfer_scatter(const struct gx_weights *weights, const doubl
                                    double *const *moment)
 {
   if (!value)
-    SPECIALISE(scatter, weights, m, NULL, total, NULL);
+    GX_STENCIL_CALL(LINES, scatter, weights, m, NULL, total, NULL);
   else if (total)
-    SPECIALISE(scatter, weights, m, value, total, moment);
+    GX_STENCIL_CALL(LINES, scatter, weights, m, value, total, moment);
   else
-    SPECIALISE(scatter, weights, m, value, NULL, moment);
+    GX_STENCIL_CALL(LINES, scatter, weights, m, value, NULL, moment);
 }
 
 GX_CORE void scatter_force(const int dim, const int s, const struct gx_weights *w, double *const *T, double *const *body,
@@ -111,9 +93,9 @@ GX_CLONES void gx_transfer_scatter_force(const struct gx_weights *weights, doubl
                                          double *const *force)
 {
   if (body)
-    SPECIALISE(scatter_force, weights, T, body, force);
+    GX_STENCIL_CALL(LINES, scatter_force, weights, T, body, force);
   else
-    SPECIALISE(scatter_force, weights, T, NULL, force);
+    GX_STENCIL_CALL(LINES, scatter_force, weights, T, NULL, force);
 }
 
 /* The first term of a sum starts it: compilers must not drop an addition to 0, which turns -0 into 0. */
@@ -167,16 +149,16 @@ GX_CORE void gather(const int dim, const int s, const struct gx_weights *w, cons
 
 GX_CLONES void gx_transfer_gather(const struct gx_weights *weights, double *const *field, double *const *value)
 {
-  SPECIALISE(gather, weights, false, NULL, NULL, true, field, value, false, NULL);
+  GX_STENCIL_CALL(LINES, gather, weights, false, NULL, NULL, true, field, value, false, NULL);
 }
 
 GX_CLONES void gx_transfer_gather_gradient(const struct gx_weights *weights, double *const *field, double *const *gradient)
 {
-  SPECIALISE(gather, weights, false, NULL, NULL, false, field, NULL, true, gradient);
+  GX_STENCIL_CALL(LINES, gather, weights, false, NULL, NULL, false, field, NULL, true, gradient);
 }
 
 GX_CLONES void gx_transfer_gather_all(const struct gx_weights *weights, double *const *a, double *const *v,
                                       double *const *acceleration, double *const *velocity, double *const *gradient)
 {
-  SPECIALISE(gather, weights, true, a, acceleration, true, v, velocity, true, gradient);
+  GX_STENCIL_CALL(LINES, gather, weights, true, a, acceleration, true, v, velocity, true, gradient);
 }

@@ -20,7 +20,8 @@ long gx_axes_values(const struct gx_table *table, size_t column, size_t *first);
  * or -1 when memory runs out. */
 long gx_axes_refine(size_t rows, size_t *group, const size_t *rank);
 /* Adds to the `chosen` columns in axis, in table order, every parameter that still tells rows apart; one that follows from those
- * before it does not, unless it sets studies apart: two studies are no refinement of one another for having different cells. axis: [columns]. Returns the new count, or -1 when memory runs out. */
+ * before it does not, unless it sets studies apart: two studies are no refinement of one another for having different cells.
+ * axis: [columns]. Returns the new count, or -1 when memory runs out. */
 long gx_axes_find(const struct gx_table *table, size_t chosen, size_t *axis);
 
 #endif
