@@ -31,6 +31,12 @@ static inline void case_set_real(struct gx_case *one, enum gx_parameter_id id, d
   one->value[id] = (struct gx_value){.type = GX_REAL, .real = real};
 }
 
+/* Whether a space transfers between particles and a grid. */
+static inline bool case_on_grid(const struct gx_space_kind *space)
+{
+  return !space->collocation && !space->of_problem;
+}
+
 /* A case before defaults are filled in. */
 static inline struct gx_case case_begin(const char *const *set)
 {

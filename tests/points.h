@@ -52,4 +52,18 @@ static inline struct points points_at(const struct gx_basis *basis, int dim, int
   return points;
 }
 
+/* [count][length] zeros. */
+static inline double **fields(int count, size_t length)
+{
+  double **field = calloc((size_t)count, sizeof *field);
+  for (int i = 0; i < count; i++) field[i] = calloc(length, sizeof **field);
+  return field;
+}
+
+static inline void fields_free(double **field, int count)
+{
+  for (int i = 0; i < count; i++) free(field[i]);
+  free(field);
+}
+
 #endif

@@ -42,16 +42,11 @@ static struct gx_case box_on(const struct gx_space_kind *space, int degree)
   return one;
 }
 
-static bool on_grid(const struct gx_space_kind *space)
-{
-  return !space->collocation && !space->of_problem;
-}
-
 static void with_every_clock(void **state)
 {
   (void)state;
   for (int s = 0; gx_space_family[s]; s++)
-    for (int k = 0; gx_clock_family[k] && on_grid(gx_space_family[s]); k++) {
+    for (int k = 0; gx_clock_family[k] && case_on_grid(gx_space_family[s]); k++) {
       struct gx_case one = box_on(gx_space_family[s], 2);
       case_set(&one, GX_METHOD_CLOCK, gx_clock_family[k]->name);
       check_box(one, gx_clock_family[k]->name);
@@ -62,7 +57,7 @@ static void with_every_basis(void **state)
 {
   (void)state;
   for (int s = 0; gx_space_family[s]; s++)
-    for (int b = 0; gx_basis_family[b] && on_grid(gx_space_family[s]); b++) {
+    for (int b = 0; gx_basis_family[b] && case_on_grid(gx_space_family[s]); b++) {
       const struct gx_basis *basis = gx_basis_family[b];
       if (basis->deforms && !gx_space_family[s]->fixed_grid) continue;
       for (int degree = 1; degree <= (basis->has_degree ? 5 : 1); degree++) {

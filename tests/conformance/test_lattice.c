@@ -17,19 +17,6 @@ struct setting {
   const char *what;
 };
 
-static double **fields(int count, size_t length)
-{
-  double **field = calloc((size_t)count, sizeof *field);
-  for (int i = 0; i < count; i++) field[i] = calloc(length, sizeof **field);
-  return field;
-}
-
-static void fields_free(double **field, int count)
-{
-  for (int i = 0; i < count; i++) free(field[i]);
-  free(field);
-}
-
 static double **random_fields(int count, size_t length, uint64_t seed)
 {
   double **field = fields(count, length);

@@ -64,11 +64,6 @@ static struct gx_case bar_on(const struct gx_space_kind *space, const struct gx_
   return one;
 }
 
-static bool on_grid(const struct gx_space_kind *space)
-{
-  return !space->collocation && !space->of_problem;
-}
-
 static void with_every_clock(void **state)
 {
   (void)state;
@@ -111,7 +106,7 @@ static void with_every_basis_and_mass(void **state)
   (void)state;
   const char *const boundary[] = {"periodic", "fixed"};
   for (int s = 0; gx_space_family[s]; s++)
-    for (int b = 0; gx_basis_family[b] && on_grid(gx_space_family[s]); b++)
+    for (int b = 0; gx_basis_family[b] && case_on_grid(gx_space_family[s]); b++)
       for (int k = 0; k < 4; k++) {
         const struct gx_basis *basis = gx_basis_family[b];
         const int highest = strcmp(basis->name, "bspline") ? 1 : 5;

@@ -50,20 +50,6 @@ static void each_setting(void (*check)(const struct setting *setting))
           }
 }
 
-/* [components][stored] of a nodal field, and [components][N] of a particle field. */
-static double **fields(int count, size_t length)
-{
-  double **field = calloc((size_t)count, sizeof *field);
-  for (int i = 0; i < count; i++) field[i] = calloc(length, sizeof **field);
-  return field;
-}
-
-static void fields_free(double **field, int count)
-{
-  for (int i = 0; i < count; i++) free(field[i]);
-  free(field);
-}
-
 static void check_unity(const struct setting *setting)
 {
   const struct gx_grid *grid = &setting->points.grid;
