@@ -65,17 +65,19 @@ int gx_measure_jumps(struct gx_measure *measure);
 void gx_measure_momentum(struct gx_measure *measure, bool linear, bool angular);
 /* After each step of dt when jump errors are measured, before anything else. */
 void gx_measure_step(struct gx_measure *measure, double dt);
-/* Follows one particle from now on, the nearest to the reference coordinates `place`; before the first sample. */
-void gx_measure_follow(struct gx_measure *measure, size_t particle, const double *place);
+/* Follows one particle from now on, the nearest to the reference coordinates `place`; before the first sample. -1 when memory runs
+ * out. */
+int gx_measure_follow(struct gx_measure *measure, size_t particle, const double *place);
 /* Where it was at the last sample. */
 const struct gx_probe *gx_measure_probe(const struct gx_measure *measure);
 /* What the stepper must call for the work of the body force. */
 struct gx_work_observer gx_measure_work(struct gx_measure *measure);
 /* Takes the sample at time t: the start, then ends of steps, every one of them unless only the last matters. */
 enum gx_status gx_measure_take(struct gx_measure *measure, struct gx_stepper *stepper, double t, double dt);
-/* Error of one component at the last sample: of a vector dim, of Cauchy stress dim * dim, row-major. error: [n] */
+/* Error of one component at the last sample, made anew from the particles, which have not moved on since: of a vector dim, of Cauchy
+ * stress dim * dim, row-major; of a problem with an exact solution. error: [n] */
 void gx_measure_error(const struct gx_measure *measure, enum gx_quantity quantity, int component, double *error);
-/* Norms of the difference between the last samples of two measures of the same particles. */
+/* Norms of the difference between the last samples of two measures of the same particles, likewise. */
 void gx_measure_difference(const struct gx_measure *measure, const struct gx_measure *other,
                            double error[GX_QUANTITIES][GX_NORMS]);
 /* What was measured so far. */

@@ -9,17 +9,15 @@
 
 #include "../core/kernel.h"
 #include "../core/vector.h"
+#include "errors.h"
 #include "jump.h"
 #include "momentum.h"
 
 const struct gx_measure_name gx_measure_quantity[GX_QUANTITIES] = {
     [GX_DISPLACEMENT] = {"displacement", "m"}, [GX_VELOCITY] = {"velocity", "m/s"}, [GX_STRESS] = {"stress", "Pa"}};
 
-struct tensor_field {
-  double *component[GX_MAX_TENSOR];
-};
 struct vector_field {
-  double *component[GX_MAX_DIM];
+  double *component[GX_MAX_DIM]; /* [n] each, in one block; NULL: not needed */
 };
 
 struct gx_measure {
@@ -29,32 +27,40 @@ struct gx_measure {
   bool started;
   int dim;
   size_t n;
-  /* scratch and memory of the last sample, [n] each */
-  struct vector_field v, a, v_before, a_before, exact_u, exact_v;
-  struct tensor_field exact_F, exact_stress, stress, P;
-  double *scratch;
-  struct vector_field cell;  /* at the last sample, unwrapped */
-  const int *cells;          /* per direction; NULL: particles do not move through cells */
-  struct gx_jump *jump;      /* NULL: not measured */
-  long followed;             /* -1: no probe */
-  double beside[GX_MAX_DIM]; /* from its X to the place asked for, m */
-  struct gx_probe probe;     /* at the last sample */
-  double work;               /* of the kicks done so far, J */
-  double start_energy;       /* kinetic and elastic at the first sample, J */
-  double start_balance;      /* the same less work, J */
-  bool linear, angular;      /* momenta that the problem keeps */
+  /* at the last sample */
+  struct vector_field v;           /* of the end of step, where that is not the particles'; before it is known, a */
+  struct vector_field a, a_before; /* for the energy defect; a_before: one sample earlier */
+  struct vector_field cell;        /* for crossings, unwrapped */
+  const int *cells;                /* per direction; NULL: particles do not move through cells */
+  struct gx_jump *jump;            /* NULL: not measured */
+  long followed;                   /* -1: no probe */
+  double beside[GX_MAX_DIM];       /* from its X to the place asked for, m */
+  struct gx_probe probe;           /* at the last sample */
+  double work;                     /* of the kicks done so far, J */
+  double start_energy;             /* kinetic and elastic at the first sample, J */
+  double start_balance;            /* the same less work, J */
+  bool linear, angular;            /* momenta that the problem keeps */
   double start_momentum[GX_MAX_DIM], start_angular[GX_MAX_DIM];
   double linear_change, angular_change; /* largest so far, kg m/s and kg m^2/s */
   double linear_size, angular_size;     /* likewise */
+  double probe_a[GX_MAX_DIM];           /* at the present sample, m/s^2 */
   struct gx_measured result;
-  double *block;
 };
 
-/* Hands out the component arrays one after another. */
-static double *place(double **component, int count, size_t n, double *at)
+static int take_room(const struct gx_measure *measure, struct vector_field *field)
 {
-  for (int i = 0; i < count; i++, at += n) component[i] = at;
-  return at;
+  double *block = calloc((size_t)measure->dim * measure->n + 1, sizeof(double));
+  for (int d = 0; block && d < measure->dim; d++) field->component[d] = block + (size_t)d * measure->n;
+  return block ? 0 : -1;
+}
+
+/* Only what the level asks for: in 3-D a field takes as much as a quantity of the particles. */
+static int take_rooms(struct gx_measure *measure)
+{
+  const bool all = measure->level == GX_MEASURE_ALL, counted = measure->cells && measure->level != GX_MEASURE_FINAL;
+  if ((measure->clock->staggered || all) && take_room(measure, &measure->v)) return -1;
+  if (all && (take_room(measure, &measure->a) || take_room(measure, &measure->a_before))) return -1;
+  return counted ? take_room(measure, &measure->cell) : 0;
 }
 
 struct gx_measure *gx_measure_create(struct gx_space *space, const struct gx_clock *clock, const int *cells,
@@ -63,15 +69,14 @@ struct gx_measure *gx_measure_create(struct gx_space *space, const struct gx_clo
   struct gx_measure *measure = calloc(1, sizeof *measure);
   if (!measure) return NULL;
   const struct gx_material *material = space->posed->problem->material;
-  int dim = space->particles->dim, tensor = dim * dim;
+  int dim = space->particles->dim;
   size_t n = space->particles->n;
   if (level == GX_MEASURE_ALL && !space->kind->potential && !material->energy)
     level = GX_MEASURE_MAX; /* there is none to measure */
   *measure =
       (struct gx_measure){.space = space, .clock = clock, .level = level, .cells = cells, .followed = -1, .dim = dim, .n = n};
-  measure->block = calloc(n * (size_t)(7 * dim + 4 * tensor + 1), sizeof(double));
-  if (!measure->block) {
-    free(measure);
+  if (take_rooms(measure)) {
+    gx_measure_free(measure);
     return NULL;
   }
   struct gx_measured *result = &measure->result;
@@ -84,13 +89,6 @@ struct gx_measure *gx_measure_create(struct gx_space *space, const struct gx_clo
   result->probe_change = result->probe_displacement = result->last_jump = result->estimated_jump = NAN;
   for (int k = 0; k < GX_NORMS; k++) result->max_jump[k] = NAN;
   result->last.crossings = level == GX_MEASURE_FINAL ? NAN : 0;
-  double *at = measure->block;
-  struct vector_field *vectors[] = {&measure->v,       &measure->a,       &measure->v_before, &measure->a_before,
-                                    &measure->exact_u, &measure->exact_v, &measure->cell};
-  for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) at = place(vectors[i]->component, dim, n, at);
-  struct tensor_field *tensors[] = {&measure->exact_F, &measure->exact_stress, &measure->stress, &measure->P};
-  for (size_t i = 0; i < sizeof tensors / sizeof *tensors; i++) at = place(tensors[i]->component, tensor, n, at);
-  measure->scratch = at;
   return measure;
 }
 
@@ -98,7 +96,10 @@ void gx_measure_free(struct gx_measure *measure)
 {
   if (!measure) return;
   gx_jump_free(measure->jump);
-  free(measure->block);
+  free(measure->v.component[0]);
+  free(measure->a.component[0]);
+  free(measure->a_before.component[0]);
+  free(measure->cell.component[0]);
   free(measure);
 }
 
@@ -127,11 +128,13 @@ void gx_measure_step(struct gx_measure *measure, double dt)
   measure->result.estimated_jump = measure->jump->estimate;
 }
 
-void gx_measure_follow(struct gx_measure *measure, size_t particle, const double *place)
+int gx_measure_follow(struct gx_measure *measure, size_t particle, const double *place)
 {
+  if (!measure->v.component[0] && take_room(measure, &measure->v)) return -1;
   measure->followed = (long)particle;
   for (int d = 0; d < measure->dim; d++) measure->beside[d] = place[d] - measure->space->particles->X[d][particle];
   if (measure->level != GX_MEASURE_FINAL) measure->result.probe_change = measure->result.probe_displacement = 0;
+  return 0;
 }
 
 const struct gx_probe *gx_measure_probe(const struct gx_measure *measure)
@@ -161,146 +164,119 @@ struct gx_work_observer gx_measure_work(struct gx_measure *measure)
   return (struct gx_work_observer){measure, measure->level == GX_MEASURE_ALL ? add_work : NULL};
 }
 
-/* square += (value - exact)^2 */
-GX_CLONES static void add_square(size_t n, const double *restrict value, const double *restrict exact, double *restrict square)
+/* Velocities at the end of step. */
+static double *const *velocity(const struct gx_measure *measure)
 {
-  for (size_t p = 0; p < n; p++) square[p] += (value[p] - exact[p]) * (value[p] - exact[p]);
+  return measure->v.component[0] ? measure->v.component : measure->space->particles->v;
 }
 
-/* Of vectors whose squares are in scratch. */
-static void norms_of_squares(const struct gx_measure *measure, double *error)
+static struct gx_errors_state state_of(const struct gx_measure *measure, double t)
 {
-  size_t n = measure->n;
-  double sum = gx_vector_sum(n, measure->scratch);
-  error[GX_INF] = sqrt(gx_vector_max(n, measure->scratch));
-  error[GX_RMS] = sqrt(sum / (double)n);
-  error[GX_L2N] = sqrt(sum) / (double)n;
-}
-
-static void norms(const struct gx_measure *measure, int components, double *const *value, double *const *exact, double *error)
-{
-  memset(measure->scratch, 0, measure->n * sizeof(double));
-  for (int k = 0; k < components; k++) add_square(measure->n, value[k], exact[k], measure->scratch);
-  norms_of_squares(measure, error);
-}
-
-static void no_error(enum gx_quantity quantity, double error[GX_QUANTITIES][GX_NORMS])
-{
-  for (int k = 0; k < GX_NORMS; k++) error[quantity][k] = NAN;
-}
-
-/* Keeps the stress of the particles too, which a reference run is compared by. */
-static void errors(struct gx_measure *measure, double t, double error[GX_QUANTITIES][GX_NORMS])
-{
-  const struct gx_particles *particles = measure->space->particles;
-  const struct gx_posed *posed = measure->space->posed;
-  const struct gx_material *material = posed->problem->material;
-  int dim = measure->dim;
-  size_t n = measure->n;
-  double **P = measure->P.component;
-  for (int q = 0; q < GX_QUANTITIES; q++) no_error((enum gx_quantity)q, error);
-  if (material->piola) gx_material_cauchy(dim, n, particles->F, particles->P, measure->stress.component);
-  if (!posed->problem->exact) return;
-  posed->problem->exact(posed, t, measure->exact_u.component, measure->exact_v.component, measure->exact_F.component, NULL);
-  norms(measure, dim, particles->u, measure->exact_u.component, error[GX_DISPLACEMENT]);
-  norms(measure, dim, measure->v.component, measure->exact_v.component, error[GX_VELOCITY]);
-  if (!material->piola) return;
-  material->piola(&posed->options.moduli, dim, n, measure->exact_F.component, P);
-  gx_material_cauchy(dim, n, measure->exact_F.component, P, measure->exact_stress.component);
-  norms(measure, dim * dim, measure->stress.component, measure->exact_stress.component, error[GX_STRESS]);
+  return (struct gx_errors_state){.space = measure->space, .v = velocity(measure), .t = t};
 }
 
 void gx_measure_error(const struct gx_measure *measure, enum gx_quantity quantity, int component, double *error)
 {
-  double *const *u = measure->space->particles->u;
-  const double *value = quantity == GX_DISPLACEMENT ? u[component]
-                        : quantity == GX_VELOCITY   ? measure->v.component[component]
-                                                    : measure->stress.component[component];
-  const double *exact = quantity == GX_DISPLACEMENT ? measure->exact_u.component[component]
-                        : quantity == GX_VELOCITY   ? measure->exact_v.component[component]
-                                                    : measure->exact_stress.component[component];
-  for (size_t p = 0; p < measure->n; p++) error[p] = value[p] - exact[p];
+  const struct gx_errors_state state = state_of(measure, measure->result.last.time);
+  gx_errors_component(&state, quantity, component, error);
 }
 
 void gx_measure_difference(const struct gx_measure *measure, const struct gx_measure *other,
                            double error[GX_QUANTITIES][GX_NORMS])
 {
-  int dim = measure->dim;
-  norms(measure, dim, measure->space->particles->u, other->space->particles->u, error[GX_DISPLACEMENT]);
-  norms(measure, dim, measure->v.component, other->v.component, error[GX_VELOCITY]);
-  no_error(GX_STRESS, error);
-  if (measure->space->posed->problem->material->piola)
-    norms(measure, dim * dim, measure->stress.component, other->stress.component, error[GX_STRESS]);
+  const struct gx_errors_state state = state_of(measure, measure->result.last.time),
+                               others = state_of(other, other->result.last.time);
+  gx_errors_difference(&state, &others, error);
 }
 
-GX_CLONES static void multiply(size_t n, const double *restrict factor, double *restrict value)
-{
-  for (size_t p = 0; p < n; p++) value[p] *= factor[p];
-}
-
-static double potential(struct gx_measure *measure)
+static double potential(const struct gx_measure *measure)
 {
   const struct gx_space *space = measure->space;
   const struct gx_particles *particles = space->particles;
   const struct gx_posed *posed = space->posed;
   if (space->kind->potential) return space->kind->potential(space);
-  posed->problem->material->energy(&posed->options.moduli, measure->dim, measure->n, particles->F, measure->scratch);
-  multiply(measure->n, particles->V0, measure->scratch);
-  return gx_vector_sum(measure->n, measure->scratch);
+  double W[GX_VECTOR_PIECE], parts[GX_VECTOR_LANES] = {0}, *F[GX_MAX_TENSOR];
+  for (size_t from = 0; from < measure->n; from += GX_VECTOR_PIECE) {
+    const size_t n = gx_vector_piece(measure->n, from);
+    for (int k = 0; k < measure->dim * measure->dim; k++) F[k] = particles->F[k] + from;
+    posed->problem->material->energy(&posed->options.moduli, measure->dim, n, F, W);
+    gx_vector_dot_piece(n, W, particles->V0 + from, parts);
+  }
+  return gx_vector_total(parts);
 }
 
-/* term = m (half v0, or a quarter of v - v0) (a - a0) */
-GX_CLONES static void defect_terms(size_t n, bool first_order, const double *restrict m, const double *restrict v0,
-                                   const double *restrict v, const double *restrict a0, const double *restrict a,
-                                   double *restrict term)
-{
-  for (size_t p = 0; p < n; p++) term[p] = m[p] * (first_order ? 0.5 * v0[p] : 0.25 * (v[p] - v0[p])) * (a[p] - a0[p]);
-}
-
-static void energies(struct gx_measure *measure, double dt, struct gx_sample *sample)
+static void energies(const struct gx_measure *measure, double dt, double defect, struct gx_sample *sample)
 {
   const struct gx_particles *particles = measure->space->particles;
-  const struct gx_posed *posed = measure->space->posed;
-  double kinetic = 0, defect = 0, *term = measure->scratch;
-  size_t n = measure->n;
-  for (int d = 0; d < measure->dim; d++) {
-    const double *v = measure->v.component[d];
-    kinetic += 0.5 * gx_vector_square(n, particles->m, v);
-    defect_terms(n, measure->clock->first_order_defect, particles->m, measure->v_before.component[d], v,
-                 measure->a_before.component[d], measure->a.component[d], term);
-    defect += gx_vector_sum(n, term);
-  }
+  double kinetic = 0;
+  for (int d = 0; d < measure->dim; d++) kinetic += 0.5 * gx_vector_square(measure->n, particles->m, measure->v.component[d]);
   sample->kinetic = kinetic;
   sample->elastic = potential(measure);
   sample->kinetic_nodes = measure->space->kind->kinetic(measure->space);
   sample->defect = measure->started ? fabs(dt * defect) : NAN;
   sample->work = measure->work;
-  if (measure->clock->staggered && posed->problem->body) /* the half kick that the sample's velocity is ahead of the run's */
+  if (measure->clock->staggered && measure->space->posed->problem->body)
+    /* the half kick that the sample's velocity is ahead of the run's */
     sample->work += 0.25 * dt * (body_power(particles, particles->v) + body_power(particles, measure->v.component));
 }
 
-static void swap(double **a, double **b)
+/* now = v + ahead a; now may be a */
+GX_CLONES static void bring(size_t n, double ahead, const double *v, const double *a, double *now)
 {
-  double *kept = *a;
-  *a = *b;
-  *b = kept;
+  GX_APART for (size_t p = 0; p < n; p++) now[p] = v[p] + ahead * a[p];
+}
+
+/* The same from velocities held to those at the end of step, v, and term = m (half v0, or a quarter of v - v0) (a - a0), where v0 is
+ * v before. */
+GX_CLONES static void bring_with_terms(size_t n, bool first_order, double ahead, const double *restrict m,
+                                       const double *restrict held, const double *restrict a0, const double *restrict a,
+                                       double *restrict v, double *restrict term)
+{
+  for (size_t p = 0; p < n; p++) {
+    double now = held[p] + ahead * a[p];
+    term[p] = m[p] * (first_order ? 0.5 * v[p] : 0.25 * (now - v[p])) * (a[p] - a0[p]);
+    v[p] = now;
+  }
+}
+
+/* Velocities at the end of step, where energies are measured. Returns the sum of terms of the step's energy defect. */
+static double bring_all(struct gx_measure *measure, double ahead)
+{
+  const struct gx_particles *particles = measure->space->particles;
+  double defect = 0, term[GX_VECTOR_PIECE];
+  for (int d = 0; d < measure->dim; d++) {
+    double parts[GX_VECTOR_LANES] = {0};
+    for (size_t from = 0; from < measure->n; from += GX_VECTOR_PIECE) {
+      const size_t n = gx_vector_piece(measure->n, from);
+      bring_with_terms(n, measure->clock->first_order_defect, ahead, particles->m + from, particles->v[d] + from,
+                       measure->a_before.component[d] + from, measure->a.component[d] + from, measure->v.component[d] + from,
+                       term);
+      gx_vector_sum_piece(n, term, parts);
+    }
+    defect += gx_vector_total(parts);
+  }
+  return defect;
 }
 
 /* Velocity and acceleration of the particles at the end of step, and the stress that belongs to their F. ahead: s that velocities are
- * behind. */
-static enum gx_status synchronise(struct gx_measure *measure, struct gx_stepper *stepper, double t, double ahead)
+ * behind. defect: as bring_all. */
+static enum gx_status synchronise(struct gx_measure *measure, struct gx_stepper *stepper, double t, double ahead, double *defect)
 {
   struct gx_space *space = measure->space;
+  const bool all = measure->level == GX_MEASURE_ALL;
   GX_TRY(gx_stepper_accelerate(stepper, t));
   if (space->kind->settle) space->kind->settle(space);
-  for (int d = 0; d < measure->dim; d++) {
-    swap(&measure->a_before.component[d], &measure->a.component[d]);
-    swap(&measure->v_before.component[d], &measure->v.component[d]);
-    memcpy(measure->v.component[d], space->particles->v[d], measure->n * sizeof(double));
+  if (!measure->v.component[0]) return GX_OK;
+  if (all) {
+    const struct vector_field before = measure->a;
+    measure->a = measure->a_before;
+    measure->a_before = before;
   }
-  if (!measure->clock->staggered && measure->level != GX_MEASURE_ALL && measure->followed < 0) return GX_OK;
-  space->kind->particle_acceleration(space, measure->a.component);
-  for (int d = 0; d < measure->dim; d++) gx_vector_add(measure->n, ahead, measure->a.component[d], measure->v.component[d]);
+  double *const *a = all ? measure->a.component : measure->v.component;
+  space->kind->particle_acceleration(space, a);
+  for (int d = 0; d < measure->dim && measure->followed >= 0; d++) measure->probe_a[d] = a[d][measure->followed];
+  if (all) *defect = bring_all(measure, ahead);
+  for (int d = 0; d < measure->dim && !all; d++) bring(measure->n, ahead, space->particles->v[d], a[d], measure->v.component[d]);
   return GX_OK;
 }
 
@@ -333,7 +309,7 @@ static double crossings(struct gx_measure *measure)
 {
   const struct gx_space *space = measure->space;
   const struct gx_particles *particles = space->particles;
-  if (!measure->cells || measure->level == GX_MEASURE_FINAL) return measure->result.last.crossings;
+  if (!measure->cell.component[0]) return measure->result.last.crossings;
   double moved = 0;
   for (int d = 0; d < measure->dim; d++) {
     const double *X = particles->X[d], *u = particles->u[d];
@@ -357,25 +333,47 @@ static double displacement_of_place(const struct gx_measure *measure)
   return sqrt(square);
 }
 
+/* u_error, v_error */
+static void follow_exact(struct gx_measure *measure, double t)
+{
+  const struct gx_posed posed = gx_problem_part(measure->space->posed, (size_t)measure->followed, 1);
+  struct gx_probe *probe = &measure->probe;
+  double exact[2][GX_MAX_DIM], *u[GX_MAX_DIM], *v[GX_MAX_DIM];
+  for (int d = 0; d < measure->dim; d++) {
+    u[d] = &exact[0][d];
+    v[d] = &exact[1][d];
+  }
+  if (posed.problem->exact) posed.problem->exact(&posed, t, u, v, NULL, NULL);
+  for (int d = 0; d < measure->dim; d++) {
+    probe->u_error[d] = posed.problem->exact ? probe->u[d] - exact[0][d] : NAN;
+    probe->v_error[d] = posed.problem->exact ? probe->v[d] - exact[1][d] : NAN;
+  }
+}
+
+/* The probe's cell along d. */
+static double cell_of_probe(const struct gx_measure *measure, int d)
+{
+  return measure->cell.component[0] ? measure->cell.component[d][measure->followed] : 0;
+}
+
 /* cell: of the probe one sample before. */
-static void follow(struct gx_measure *measure, const double *cell)
+static void follow(struct gx_measure *measure, double t, const double *cell)
 {
   const size_t p = (size_t)measure->followed;
   const struct gx_particles *particles = measure->space->particles;
   struct gx_probe *probe = &measure->probe;
   double square = 0;
-  bool stayed = true, exact = measure->space->posed->problem->exact;
+  bool stayed = true;
   for (int d = 0; d < measure->dim; d++) {
-    stayed = stayed && measure->cell.component[d][p] == cell[d];
-    double a = measure->a.component[d][p], change = a - probe->a[d];
+    stayed = stayed && cell_of_probe(measure, d) == cell[d];
+    double a = measure->probe_a[d], change = a - probe->a[d];
     square += change * change;
     probe->a[d] = a;
     probe->u[d] = particles->u[d][p];
     probe->jump[d] = measure->jump ? measure->jump->sum[d][p] : NAN;
     probe->v[d] = measure->v.component[d][p];
-    probe->u_error[d] = exact ? probe->u[d] - measure->exact_u.component[d][p] : NAN;
-    probe->v_error[d] = exact ? probe->v[d] - measure->exact_v.component[d][p] : NAN;
   }
+  follow_exact(measure, t);
   struct gx_measured *result = &measure->result;
   if (measure->started && stayed && measure->level != GX_MEASURE_FINAL)
     result->probe_change = fmax(result->probe_change, sqrt(square));
@@ -412,9 +410,8 @@ static void keep_extremes(struct gx_measure *measure, const struct gx_sample *sa
 /* Of the sample and, largest so far, relative to the largest sizes so far. */
 static void momenta(struct gx_measure *measure, double ahead, struct gx_sample *sample)
 {
-  double *const scratch[] = {measure->scratch, measure->P.component[0]};
   struct gx_space *space = measure->space;
-  struct gx_momentum now = gx_momentum_of(space->particles, measure->v.component, scratch);
+  struct gx_momentum now = gx_momentum_of(space->particles, measure->v.component);
   if (space->kind->spin) space->kind->spin(space, ahead, now.angular);
   memcpy(sample->momentum, now.linear, sizeof sample->momentum);
   memcpy(sample->angular, now.angular, sizeof sample->angular);
@@ -432,18 +429,9 @@ static void momenta(struct gx_measure *measure, double ahead, struct gx_sample *
     measure->result.angular_change = measure->angular_change / measure->angular_size;
 }
 
-static void jumps(const struct gx_measure *measure, struct gx_sample *sample)
-{
-  memset(measure->scratch, 0, measure->n * sizeof(double));
-  for (int d = 0; d < measure->dim; d++)
-    for (size_t p = 0; p < measure->n; p++) measure->scratch[p] += measure->jump->sum[d][p] * measure->jump->sum[d][p];
-  norms_of_squares(measure, sample->jump);
-  sample->jump_step = measure->jump->step;
-}
-
 enum gx_status gx_measure_take(struct gx_measure *measure, struct gx_stepper *stepper, double t, double dt)
 {
-  double cell[GX_MAX_DIM]; /* of the probe at the last sample */
+  double cell[GX_MAX_DIM], defect = 0; /* cell: of the probe at the last sample */
   struct gx_sample sample = {.time = t,
                              .kinetic = NAN,
                              .kinetic_nodes = NAN,
@@ -455,15 +443,18 @@ enum gx_status gx_measure_take(struct gx_measure *measure, struct gx_stepper *st
                              .jump = {NAN, NAN, NAN},
                              .jump_step = NAN};
   double ahead = measure->clock->staggered ? 0.5 * dt : 0;
-  GX_TRY(synchronise(measure, stepper, t, ahead));
-  errors(measure, t, sample.error);
-  if (measure->level == GX_MEASURE_ALL) energies(measure, dt, &sample);
+  GX_TRY(synchronise(measure, stepper, t, ahead, &defect));
+  const struct gx_errors_state state = state_of(measure, t);
+  gx_errors_norms(&state, sample.error);
+  if (measure->level == GX_MEASURE_ALL) energies(measure, dt, defect, &sample);
   if (measure->level == GX_MEASURE_ALL && !measure->space->posed->problem->space) momenta(measure, ahead, &sample);
-  if (measure->jump) jumps(measure, &sample);
-  if (measure->followed >= 0)
-    for (int d = 0; d < measure->dim; d++) cell[d] = measure->cell.component[d][measure->followed];
+  if (measure->jump) {
+    gx_errors_of_vectors(measure->n, measure->dim, measure->jump->sum, sample.jump);
+    sample.jump_step = measure->jump->step;
+  }
+  for (int d = 0; d < measure->dim && measure->followed >= 0; d++) cell[d] = cell_of_probe(measure, d);
   sample.crossings = crossings(measure);
-  if (measure->followed >= 0) follow(measure, cell);
+  if (measure->followed >= 0) follow(measure, t, cell);
   keep_extremes(measure, &sample);
   measure->result.last = sample;
   measure->started = true;

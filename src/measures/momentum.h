@@ -13,8 +13,8 @@ struct gx_momentum {
   double linear_size, angular_size;
 };
 
-/* v: [dim][n]. scratch: two arrays, [n]. */
-struct gx_momentum gx_momentum_of(const struct gx_particles *particles, double *const *v, double *const *scratch);
+/* v: [dim][n], m/s */
+struct gx_momentum gx_momentum_of(const struct gx_particles *particles, double *const *v);
 /* |a - b| of vectors in 3-D. */
 double gx_momentum_distance(const double *a, const double *b);
 

@@ -154,7 +154,8 @@ static enum gx_status prepare(struct run *run, const struct gx_case *one, double
   if (one->value[GX_OUTPUT_PROBE].type == GX_TEXT) {
     double place[GX_MAX_DIM];
     run->result->probe = (long)nearest_particle(simulation->particles, one->value[GX_OUTPUT_PROBE].text, place);
-    gx_measure_follow(run->measure, (size_t)run->result->probe, place);
+    if (gx_measure_follow(run->measure, (size_t)run->result->probe, place))
+      return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the probe");
   }
   if (simulation->jumps && gx_measure_jumps(run->measure))
     return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the jumps");
@@ -421,7 +422,8 @@ struct gx_result gx_case_run_by(const struct gx_case *one, struct gx_team *team)
     for (int k = 0; k < GX_NORMS; k++) result.reference[q][k] = NAN;
   for (int i = 0; i < GX_BUDGET_ENTRIES; i++) result.budget.value[i] = NAN;
   struct run run = {.team = team, .result = &result};
-  if (prepare(&run, one, 1) == GX_OK) {
+  const bool prepared = prepare(&run, one, 1) == GX_OK;
+  if (prepared) {
     double refine = (double)one->value[GX_OUTPUT_REFERENCE].integer;
     bool done = march(&run) == GX_OK;
     result.measured = *gx_measure_result(run.measure);
@@ -432,9 +434,9 @@ struct gx_result gx_case_run_by(const struct gx_case *one, struct gx_team *team)
     result.kh = 2 * M_PI * run.simulation.problem_options.mode / run.simulation.space_options.cells[0];
     result.vibration = gx_frequency_fit(&run.frequency, 1e-9 * fabs(run.simulation.problem_options.amplitude));
     if (done && refine > 0) compare_with_reference(&run, one, refine);
-    result.stable_dt = estimate_stable_dt(one, team);
   }
-  finish(&run);
+  finish(&run); /* first: the estimate takes as much memory as a run */
+  if (prepared) result.stable_dt = estimate_stable_dt(one, team);
   return result;
 }
 

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Total momentum of particles against sums of cross products, and the sizes that it is compared with. */
-#include <stdlib.h>
-
 #include <gridcross/particles.h>
 
 #include "check.h"
@@ -22,15 +20,6 @@ static struct gx_particles *moving_particles(int dim)
   return particles;
 }
 
-static struct gx_momentum momentum_of(const struct gx_particles *particles)
-{
-  double *scratch[] = {malloc(particles->n * sizeof(double)), malloc(particles->n * sizeof(double))};
-  struct gx_momentum momentum = gx_momentum_of(particles, particles->v, scratch);
-  free(scratch[0]);
-  free(scratch[1]);
-  return momentum;
-}
-
 /* Position and velocity of a particle in three dimensions. */
 static void load(const struct gx_particles *particles, size_t p, double *x, double *v)
 {
@@ -43,7 +32,7 @@ static void load(const struct gx_particles *particles, size_t p, double *x, doub
 static void check_sums(int dim)
 {
   struct gx_particles *particles = moving_particles(dim);
-  struct gx_momentum momentum = momentum_of(particles);
+  struct gx_momentum momentum = gx_momentum_of(particles, particles->v);
   double linear[GX_MAX_DIM] = {0}, angular[GX_MAX_DIM] = {0}, first[GX_MAX_DIM] = {0}, mass = 0, x[GX_MAX_DIM], v[GX_MAX_DIM];
   for (size_t p = 0; p < particles->n; p++) {
     double m = particles->m[p];
@@ -86,10 +75,10 @@ static void sizes_do_not_depend_on_the_origin(void **state)
 {
   (void)state;
   struct gx_particles *particles = moving_particles(3);
-  struct gx_momentum here = momentum_of(particles);
+  struct gx_momentum here = gx_momentum_of(particles, particles->v);
   for (int d = 0; d < 3; d++)
     for (size_t p = 0; p < particles->n; p++) particles->u[d][p] += 10 * (d + 1);
-  struct gx_momentum there = momentum_of(particles);
+  struct gx_momentum there = gx_momentum_of(particles, particles->v);
   CLOSE(there.linear_size, here.linear_size, 0);
   CLOSE(there.angular_size, here.angular_size, 1e-11);
   assert_true(gx_momentum_distance(here.angular, there.angular) > 1);
