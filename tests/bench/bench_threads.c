@@ -24,19 +24,25 @@ static double now(void)
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* ns per particle-step of a run; exits when it fails. */
-static double run(const char *space, int cells, struct gx_team *team)
+static struct gx_case case_of(const char *space, int cells)
 {
   struct gx_case one = {0};
-  struct gx_simulation simulation;
-  struct gx_outcome outcome;
-  struct gx_stepper *stepper = NULL;
   one.value[GX_PROBLEM_NAME] = (struct gx_value){.type = GX_TEXT, .text = "axis-aligned"};
   one.value[GX_PROBLEM_DIMENSION] = (struct gx_value){.type = GX_INTEGER, .integer = 3};
   one.value[GX_MESH_CELLS] = (struct gx_value){.type = GX_INTEGER, .integer = cells};
   one.value[GX_MESH_PARTICLES_PER_CELL] = (struct gx_value){.type = GX_INTEGER, .integer = PER_CELL};
   one.value[GX_METHOD_SPACE] = (struct gx_value){.type = GX_TEXT, .text = space};
   one.value[GX_METHOD_DEGREE] = (struct gx_value){.type = GX_INTEGER, .integer = 2};
+  return one;
+}
+
+/* ns per particle-step of a run; exits when it fails. */
+static double run(const char *space, int cells, struct gx_team *team)
+{
+  struct gx_case one = case_of(space, cells);
+  struct gx_simulation simulation;
+  struct gx_outcome outcome;
+  struct gx_stepper *stepper = NULL;
   gx_parameter_resolve(one.value);
   if (gx_simulation_plan(&simulation, &one, &outcome)) exit(1);
   simulation.space_options.team = team;
@@ -52,24 +58,61 @@ static double run(const char *space, int cells, struct gx_team *team)
   return ns;
 }
 
-/* What a process grows by in its first run: particles, problem, space and clock, without measures. */
-static double bytes_per_particle(const char *space)
+/* The same as a whole case of a few steps, as `gridcross run` runs it. */
+static void run_case(const char *space, const char *measures, int cells)
+{
+  struct gx_case one = case_of(space, cells);
+  one.value[GX_TIME_STEPS] = (struct gx_value){.type = GX_INTEGER, .integer = STEPS};
+  one.value[GX_OUTPUT_MEASURES] = (struct gx_value){.type = GX_TEXT, .text = measures};
+  gx_parameter_resolve(one.value);
+  struct gx_result result = gx_case_run(&one);
+  if (result.outcome.status != GX_OK) exit(1);
+  gx_case_free(&result);
+}
+
+static double most_bytes(void)
+{
+  struct rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * (double)usage.ru_maxrss;
+}
+
+/* What a process grows by from a run of two cells along each direction. measures: output.measures; NULL: without, particles,
+ * problem, space and clock alone. */
+static int print_bytes_per_particle(const char *space, const char *measures)
 {
   fflush(stdout);
   pid_t child = fork();
-  struct rusage before, after;
   if (child == 0) {
-    run(space, 2, NULL); /* the program itself */
-    getrusage(RUSAGE_SELF, &before);
-    run(space, CELLS_FOR_MEMORY, NULL);
-    getrusage(RUSAGE_SELF, &after);
-    double kilobytes = (double)(after.ru_maxrss - before.ru_maxrss);
-    printf("%-12s %9.0f\n", space, 1024 * kilobytes / pow(CELLS_FOR_MEMORY * PER_CELL, 3));
+    double bytes[2];
+    for (int i = 0; i < 2; i++) {
+      int cells = i ? CELLS_FOR_MEMORY : 2;
+      if (measures)
+        run_case(space, measures, cells);
+      else
+        run(space, cells, NULL);
+      bytes[i] = most_bytes();
+    }
+    printf(" %9.0f", (bytes[1] - bytes[0]) / pow(CELLS_FOR_MEMORY * PER_CELL, 3));
     fflush(stdout);
     _exit(0);
   }
   int status = 1;
   return child < 0 || waitpid(child, &status, 0) < 0 || status ? -1 : 0;
+}
+
+static int print_memory(void)
+{
+  static const char *const measures[] = {NULL, "final", "max", "all"};
+  printf("%d particles: bytes a particle at most, by output.measures\n%-12s", (int)pow(CELLS_FOR_MEMORY * PER_CELL, 3), "");
+  for (size_t k = 0; k < sizeof measures / sizeof *measures; k++) printf(" %9s", measures[k] ? measures[k] : "without");
+  for (size_t i = 0; i < sizeof spaces / sizeof *spaces; i++) {
+    printf("\n%-12s", spaces[i]);
+    for (size_t k = 0; k < sizeof measures / sizeof *measures; k++)
+      if (print_bytes_per_particle(spaces[i], measures[k])) return -1;
+  }
+  printf("\n");
+  return 0;
 }
 
 int main(int count, char **argument)
@@ -79,9 +122,7 @@ int main(int count, char **argument)
     fputs("usage: bench_threads [REPETITIONS]\n", stderr);
     return 2;
   }
-  printf("%d particles: bytes a particle at most\n", (int)pow(CELLS_FOR_MEMORY * PER_CELL, 3));
-  for (size_t i = 0; i < sizeof spaces / sizeof *spaces; i++)
-    if (bytes_per_particle(spaces[i]) < 0) return 1;
+  if (print_memory()) return 1;
   printf("\n%d particles: ns per particle-step on the wall, minimum of %d\n%-12s %9s %9s %9s\n", (int)pow(CELLS * PER_CELL, 3),
          repetitions, "", "1 thread", "2 threads", "speed-up");
   struct gx_team *team = gx_team_create(MOST_THREADS);

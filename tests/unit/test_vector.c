@@ -42,6 +42,32 @@ static void products(void **state)
   }
 }
 
+/* Of numbers whose sums are rounded: equal bits, wherever the last piece ends. */
+static void sums_do_not_depend_on_pieces(void **state)
+{
+  (void)state;
+  enum { ENTRIES = 3 * GX_VECTOR_PIECE + 5 };
+  static const size_t lengths[] = {GX_VECTOR_LANES, 3 * GX_VECTOR_LANES, GX_VECTOR_PIECE};
+  double a[ENTRIES], b[ENTRIES];
+  uint64_t seed = 71;
+  for (int i = 0; i < ENTRIES; i++) {
+    a[i] = check_random(&seed, -1, 1);
+    b[i] = check_random(&seed, 1, 2);
+  }
+  for (size_t n = 0; n <= ENTRIES; n++)
+    for (size_t k = 0; k < sizeof lengths / sizeof *lengths; k++) {
+      double sum[GX_VECTOR_LANES] = {0}, dot[GX_VECTOR_LANES] = {0};
+      for (size_t from = 0; from < n; from += lengths[k]) {
+        size_t piece = n - from < lengths[k] ? n - from : lengths[k];
+        if (lengths[k] == GX_VECTOR_PIECE) assert_int_equal(gx_vector_piece(n, from), piece);
+        gx_vector_sum_piece(piece, a + from, sum);
+        gx_vector_dot_piece(piece, a + from, b + from, dot);
+      }
+      NEAR(gx_vector_total(sum), gx_vector_sum(n, a), 0);
+      NEAR(gx_vector_total(dot), gx_vector_dot(n, a, b), 0);
+    }
+}
+
 static void maxima(void **state)
 {
   (void)state;
@@ -58,9 +84,8 @@ static void maxima(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(sums),
-      cmocka_unit_test(squares),
-      cmocka_unit_test(products),
+      cmocka_unit_test(sums),     cmocka_unit_test(squares),
+      cmocka_unit_test(products), cmocka_unit_test(sums_do_not_depend_on_pieces),
       cmocka_unit_test(maxima),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
