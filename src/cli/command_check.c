@@ -11,7 +11,7 @@
 static const struct gx_option option[] = {GX_COMMAND_SET, {0}};
 
 struct totals {
-  size_t refused, above;
+  size_t refused, failed, above;
   double steps, particle_steps;
 };
 
@@ -39,7 +39,8 @@ static int put_plan(struct gx_table *table, size_t row, const struct gx_plan *pl
     snprintf(note, sizeof note, "dt is above the stable dt");
   else if (grows)
     snprintf(note, sizeof note, "unstable at any dt: the space itself grows by up to exp(%.3g t)", plan->growth);
-  totals->refused += refused;
+  totals->refused += plan->outcome.status == GX_REFUSED;
+  totals->failed += refused && plan->outcome.status != GX_REFUSED;
   totals->above += above;
   if (!refused) {
     totals->steps += plan->steps;
@@ -98,6 +99,7 @@ static void print_totals(const struct gx_study *study, const struct totals *tota
   printf("\n%zu case%s", study->count, study->count == 1 ? "" : "s");
   if (study->duplicates) printf(" (%zu equal to others dropped)", study->duplicates);
   if (totals->refused) printf(", %zu refused", totals->refused);
+  if (totals->failed) printf(", %zu that cannot start", totals->failed);
   if (totals->above) printf(", %zu with dt above the stable dt", totals->above);
   printf(", %.0f steps, %.3g particle steps\n", totals->steps, totals->particle_steps);
 }

@@ -68,23 +68,26 @@ static void show_progress(void *context, size_t done, size_t total)
   fflush(stderr);
 }
 
-/* Time and particle matter where a case did not end well, timing where it was asked for. */
+/* Time and particle matter where a case did not end well, restitution where there is one, timing where it was asked for. */
 static bool is_shown(const struct gx_table *table, const char *name, bool timing)
 {
   if (!strcmp(name, "result.ns_per_particle_step")) return timing;
-  if (strcmp(name, "result.time") != 0) return true;
-  long reason = gx_table_find(table, "result.reason");
+  if (strcmp(name, "result.time") != 0 && strcmp(name, "result.restitution") != 0) return true;
+  long c = gx_table_find(table, strcmp(name, "result.time") ? name : "result.reason");
   for (size_t row = 0; row < table->rows; row++)
-    if (gx_table_get(table, row, (size_t)reason).type != GX_NULL) return true;
+    if (gx_table_get(table, row, (size_t)c).type != GX_NULL) return true;
   return false;
 }
 
 /* What varies and what matters most. */
 static struct gx_table *summary(const struct gx_table *table, bool timing)
 {
-  static const char *const shown[] = {
-      "result.status",    "result.displacement.max.rms", "result.crossings", "result.energy.drift", "result.dt",
-      "result.stable_dt", "result.ns_per_particle_step", "result.time",      "result.particle",     "result.reason"};
+  static const char *const shown[] = {"result.status",       "result.displacement.max.rms",
+                                      "result.restitution",  "result.crossings",
+                                      "result.energy.drift", "result.dt",
+                                      "result.stable_dt",    "result.ns_per_particle_step",
+                                      "result.time",         "result.particle",
+                                      "result.reason"};
   size_t *column = calloc(table->columns + sizeof shown / sizeof *shown, sizeof *column);
   long count = column ? gx_axes_find(table, 0, column) : -1;
   for (size_t i = 0; i < sizeof shown / sizeof *shown && count >= 0; i++) {

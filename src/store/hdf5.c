@@ -25,6 +25,7 @@ struct silence {
 static struct silence silence_begin(void)
 {
   struct silence old = {0};
+  H5dont_atexit(); /* closing what a damaged file has left behind can go on for ever; all else is closed here */
   H5Eget_auto2(H5E_DEFAULT, &old.function, &old.data);
   H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
   return old;
@@ -241,11 +242,13 @@ static int get_integer(hid_t object, const char *name, int64_t *value)
 /* Number of rows and type of a dataset that can be a column, or -1. */
 static hssize_t column_shape(hid_t dataset, enum gx_type *type)
 {
+  enum { WIDEST = 16 }; /* bytes of a number: HDF5 converts damaged types of any width, for ever */
   hssize_t rows = -1;
   hid_t space = H5Dget_space(dataset), stored = H5Dget_type(dataset);
   if (space >= 0 && stored >= 0 && H5Sget_simple_extent_ndims(space) == 1) {
     H5T_class_t class = H5Tget_class(stored);
     *type = class == H5T_FLOAT ? GX_REAL : class == H5T_INTEGER ? GX_INTEGER : H5Tis_variable_str(stored) > 0 ? GX_TEXT : GX_NULL;
+    if (H5Tget_size(stored) > WIDEST) *type = GX_NULL;
     if (*type != GX_NULL) rows = H5Sget_simple_extent_npoints(space);
   }
   if (stored >= 0) H5Tclose(stored);

@@ -266,7 +266,8 @@ enum gx_status gx_simulation_lay_out(struct gx_simulation *simulation, struct gx
       simulation->points ? gx_particles_list(simulation->points, options->moduli.density)
                          : gx_particles_fill(options->dim, cells, simulation->per_cell, simulation->layout,
                                              options->moduli.density, simulation->problem->inside ? is_inside : NULL, simulation);
-  if (!simulation->particles) return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the particles");
+  if (!simulation->particles)
+    return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the particles of %d cells a direction: use fewer", cells[0]);
   if (simulation->particles->n) return GX_OK;
   return gx_status_set(outcome, GX_REFUSED, -1,
                        "no particle is inside the body: use more than %d cells, more than %d particles a cell, or a larger body",

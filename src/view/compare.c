@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "left_out.h"
 #include "pivot.h"
 #include "sheet.h"
 
@@ -164,6 +165,18 @@ static size_t block_end(const struct gx_pivot *pivot, size_t from, size_t fit)
   return at;
 }
 
+/* Whether cases ended ok, and none of them has the value. */
+static bool is_empty(const struct gx_pivot *pivot, size_t v)
+{
+  size_t ok = 0;
+  for (size_t i = 0; i < pivot->rows * pivot->columns; i++) {
+    if (pivot->cell[i] < 0 || !gx_pivot_ok(pivot, pivot->cell[i], pivot->value[v])) continue;
+    if (gx_table_get(pivot->table, (size_t)pivot->cell[i], pivot->value[v]).type != GX_NULL) return false;
+    ok++;
+  }
+  return ok;
+}
+
 int gx_compare_print(const struct gx_comparison *comparison, FILE *out, FILE *errors)
 {
   struct gx_pivot *pivot = gx_pivot_create(comparison, errors);
@@ -179,6 +192,7 @@ int gx_compare_print(const struct gx_comparison *comparison, FILE *out, FILE *er
       putc('\n', out);
       print_block(&at, from, to, out);
     }
+    if (is_empty(pivot, v)) gx_left_out_suggest(pivot->table, column->name, errors);
   }
   gx_pivot_free(pivot);
   return 0;

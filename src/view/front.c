@@ -126,7 +126,7 @@ int gx_front_find(struct gx_front *front, const struct gx_table *table, const ch
   if (front->untimed)
     fprintf(errors, "gridcross: no case has %s: is timing.csv still beside study.h5? If not, run again\n", cost);
   else if (front->left_out.empty)
-    fprintf(errors, "gridcross: no case has %s: name another, or run again with output.measures: all\n", error);
+    gx_left_out_suggest(table, error, errors);
   else
     return 0;
   return -1;

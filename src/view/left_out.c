@@ -14,6 +14,31 @@ bool gx_left_out_try(struct gx_left_out *left_out, const struct gx_table *table,
   return false;
 }
 
+/* A result that tells cases apart by more than how long they ran. */
+static bool is_measured(const struct gx_table *table, size_t column)
+{
+  static const char *const others[] = {
+      "result.particle", "result.probe.particle",       "result.dt",       "result.steps", "result.time",
+      "result.seconds",  "result.ns_per_particle_step", "result.stable_dt"};
+  const char *name = table->column[column].name;
+  if (strncmp(name, "result.", strlen("result.")) != 0 || table->column[column].type == GX_TEXT) return false;
+  for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+    if (!strcmp(name, others[i])) return false;
+  for (size_t row = 0; row < table->rows; row++)
+    if (gx_table_get(table, row, column).type != GX_NULL) return true;
+  return false;
+}
+
+void gx_left_out_suggest(const struct gx_table *table, const char *column, FILE *errors)
+{
+  enum { SHOWN = 8 };
+  int shown = 0;
+  fprintf(errors, "gridcross: no case has %s", column);
+  for (size_t c = 0; c < table->columns && shown < SHOWN; c++)
+    if (is_measured(table, c)) fprintf(errors, shown++ ? ", %s" : "; some have %s", table->column[c].name);
+  fputs(shown ? "\n" : "; run again with output.measures: all\n", errors);
+}
+
 void gx_left_out_tell(const struct gx_left_out *left_out, FILE *errors)
 {
   size_t count = 0;

@@ -205,11 +205,17 @@ static int fill_lines(struct sketch *sketch, size_t x, size_t y)
   return failed;
 }
 
-static enum gx_plot_status draw(struct sketch *sketch, FILE *errors)
+/* name: of what is drawn, a column of the table or of histories. */
+static enum gx_plot_status draw(struct sketch *sketch, const char *name, FILE *errors)
 {
   gx_left_out_tell(&sketch->left_out, errors);
   if (sketch->figure.lines) return gx_figure_draw(&sketch->figure, sketch->plot->output, errors);
-  fputs("gridcross: there is nothing to draw\n", errors);
+  if (!sketch->left_out.empty)
+    fputs("gridcross: there is nothing to draw\n", errors);
+  else if (gx_table_find(sketch->pivot->table, name) >= 0)
+    gx_left_out_suggest(sketch->pivot->table, name, errors);
+  else
+    fprintf(errors, "gridcross: there is nothing to draw: no case has %s at any time; --y names another\n", name);
   return GX_PLOT_REFUSED;
 }
 
@@ -266,7 +272,7 @@ enum gx_plot_status gx_plot_lines(const struct gx_plot *plot, FILE *errors)
       for (size_t i = 0; i < figure->lines; i++)
         if (!figure->x.log || !figure->y.log) figure->line[i].order = NAN;
       choose_triangle(figure);
-      status = draw(&sketch, errors);
+      status = draw(&sketch, value[0], errors);
     }
   }
   sketch_free(&sketch);
@@ -343,7 +349,7 @@ static enum gx_plot_status plot_curves(const struct gx_plot *plot, const struct 
       sketch.figure.x = gx_figure_range(&sketch.figure, GX_FIGURE_X, kind->in_time ? INFINITY : 10, 0);
       sketch.figure.y = gx_figure_range(&sketch.figure, GX_FIGURE_Y,
                                         gx_curve_is_error(plot->y ? plot->y : kind->name) ? 10 : INFINITY, kind->in_time);
-      status = draw(&sketch, errors);
+      status = draw(&sketch, plot->y ? plot->y : kind->name, errors);
     }
   }
   for (size_t i = 0; curve && i < cells; i++) gx_table_free(curve[i].table);

@@ -211,6 +211,17 @@ class Run(Case):
         os.close(write)
         self.assertIn(done.returncode, (-signal.SIGPIPE, 1))
 
+    def test_results_without_an_exact_solution_are_named(self):
+        (self.dir / "disks.yaml").write_text("problem.name: colliding-disks\nmesh: {cells: [8, 10], particles_per_cell: 2}\n")
+        out = self.call("run", "-q", "disks.yaml", "--no-timing").stdout
+        self.assertIn("restitution", out.splitlines()[0])
+        self.assertNotIn("restitution", self.call("run", "-q", "small.yaml", "--no-timing").stdout)
+        done = self.call("compare", "disks.study")
+        self.assertIn("no case has result.displacement.max.rms; some have ", done.stderr)
+        self.assertIn("result.restitution", done.stderr)
+        self.assertEqual(self.call("compare", "disks.study", "--value", "result.restitution").stderr, "")
+        self.assertIn("result.restitution", self.call("advise", "disks.study", code=2).stderr)
+
     def test_a_damaged_study_is_refused(self):
         self.call("run", "small.yaml", "-q")
         path = self.dir / "small.study" / "study.h5"

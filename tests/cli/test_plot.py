@@ -326,7 +326,7 @@ class Messages(Case):
             (["spectrum"], "set output.spectra"), (["spektrum"], "did you mean spectrum?"), (["history", "--y", "status"], "no history"),
             (["history", "--y", "energy.kinetc"], "did you mean energy.kinetic?"), (["history", "--y", ""], "no history"),
             (["history", "--y", "."], "no history"), (["history", "--y", "/table"], "no history"),
-            (["--y", "result.particle"], "nothing to draw"),
+            (["--y", "result.particle"], "no case has"),
         ]:
             with self.subTest(args=args):
                 more = [] if not args or "-o" in args else ["-o", "fig.svg"]

@@ -266,6 +266,14 @@ static void errors_of_datasets_are_reported(void **state)
   const char *const claims[] = {" dataset 'x' claims more rows than the file holds",
                                 " dataset 'y' has more rows than can be taken", " dataset 'volume' is empty", NULL};
   expect("list.h5", 2, claims);
+  file = begin_hdf5();
+  hid_t wide = H5Tcopy(H5T_NATIVE_DOUBLE);
+  H5Tset_size(wide, 1000);
+  put_dataset(file, "x", wide, N, NULL);
+  put_dataset(file, "volume", H5T_NATIVE_DOUBLE, N, volume);
+  H5Tclose(wide);
+  H5Fclose(file);
+  expect("list.h5", 1, (const char *const[]){" dataset 'x' is not one row of numbers", NULL});
   write_file("list.h5", "\x89HDF\r\n\x1a\nand no more", 19);
   expect("list.h5", 1, (const char *const[]){" is damaged or not an HDF5 file", NULL});
 }
