@@ -34,7 +34,5 @@ void gx_grid_fold(const struct gx_grid *grid, double *field);
 void gx_grid_spread(const struct gx_grid *grid, double *field);
 /* Zeroes vector component d where an end holds it. field: [stored]. */
 void gx_grid_fix(const struct gx_grid *grid, int d, double *field);
-/* The components that are held at a node: bit d for component d. */
-unsigned gx_grid_held(const struct gx_grid *grid, size_t node);
 
 #endif

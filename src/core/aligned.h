@@ -18,4 +18,13 @@ static inline void *gx_aligned_zeros(size_t bytes, void **block)
   return (char *)*block + (past ? GX_CACHE_LINE - past : 0);
 }
 
+/* Hands out `count` arrays of `length` doubles from `at`, an aligned start; NULL: only counts. Returns how many doubles they take. A
+ * cache line between two arrays keeps arrays whose length is a power of two out of the same cache set. */
+static inline size_t gx_aligned_place(double **array, int count, size_t length, double *at)
+{
+  const size_t line = GX_CACHE_LINE / sizeof(double), stride = (length + line - 1) / line * line + line;
+  for (int i = 0; at && i < count; i++) array[i] = at + (size_t)i * stride;
+  return (size_t)count * stride;
+}
+
 #endif

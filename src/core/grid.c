@@ -56,16 +56,3 @@ void gx_grid_fix(const struct gx_grid *grid, int d, double *field)
         }
   }
 }
-
-unsigned gx_grid_held(const struct gx_grid *grid, size_t node)
-{
-  unsigned held = 0;
-  for (int d = 0; d < grid->dim; d++) {
-    const struct gx_axis *axis = &grid->axis[d];
-    int k = (int)(node / grid->stride[d] % (size_t)axis->stored);
-    if (axis->periodic) continue;
-    if (k < axis->edge) held |= axis->held[0];
-    if (k >= axis->functions - axis->edge) held |= axis->held[1];
-  }
-  return held;
-}

@@ -18,16 +18,7 @@ enum {
 
 static const int kinds = 2; /* of strays */
 
-/* Hands out `count` arrays of `length` doubles from `at`; with at NULL only counts them. A cache line between two arrays keeps
- * arrays whose length is a power of two out of the same cache set. */
-static size_t hand_out(double **array, int count, size_t length, double *at)
-{
-  const size_t line = 8, stride = (length + line - 1) / line * line + line;
-  for (int i = 0; at && i < count; i++) array[i] = at + (size_t)i * stride;
-  return (size_t)count * stride;
-}
-
-#define PLACE(array, count, length) used += hand_out(array, count, length, at ? at + used : NULL)
+#define PLACE(array, count, length) used += gx_aligned_place(array, count, length, at ? at + used : NULL)
 
 static size_t place_weights(const struct gx_grid *grid, size_t room, struct gx_weights *weights, double *at)
 {

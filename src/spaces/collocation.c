@@ -15,21 +15,12 @@ static struct gx_collocation *of(struct gx_space *space)
   return (struct gx_collocation *)space;
 }
 
-/* Hands out `count` arrays of n + 2 doubles; with at NULL only counts them. A cache line between two arrays keeps arrays whose
- * length is a power of two out of the same cache set. */
-static size_t hand_out(const struct gx_collocation *c, double **array, int count, double *at)
-{
-  const size_t line = 8, stride = (c->n + 2 + line - 1) / line * line + line;
-  for (int i = 0; at && i < count; i++) array[i] = at + (size_t)i * stride;
-  return (size_t)count * stride;
-}
-
 /* Sets every array; returns the number of doubles they take. */
 static size_t place_arrays(struct gx_collocation *c, double *block)
 {
   const int dim = c->space.particles->dim, tensor = dim * dim;
   size_t used = 0;
-#define PLACE(array, count) used += hand_out(c, array, count, block ? block + used : NULL)
+#define PLACE(array, count) used += gx_aligned_place(array, count, c->n + 2, block ? block + used : NULL)
   PLACE(c->a, dim);
   PLACE(c->opened, dim);
   if (!c->strained) PLACE(c->rate, tensor);

@@ -31,21 +31,12 @@ static void lay_out_grid(struct gx_mesh *mesh)
   }
 }
 
-/* Hands out `count` arrays of `length` doubles from `at`; with at NULL only counts them. A cache line between two arrays keeps
- * arrays whose length is a power of two out of the same cache set. */
-static size_t hand_out(double **array, int count, size_t length, double *at)
-{
-  const size_t line = 8, stride = (length + line - 1) / line * line + line;
-  for (int i = 0; at && i < count; i++) array[i] = at + (size_t)i * stride;
-  return (size_t)count * stride;
-}
-
 /* Sets every array of the mesh; returns the number of doubles they take. */
 static size_t place_arrays(struct gx_mesh *mesh, double *block)
 {
   const int dim = mesh->grid.dim;
   size_t nodes = mesh->grid.stored, n = mesh->space.particles->n, used = 0;
-#define PLACE(array, count, length) used += hand_out(array, count, length, block ? block + used : NULL)
+#define PLACE(array, count, length) used += gx_aligned_place(array, count, length, block ? block + used : NULL)
   PLACE(&mesh->mass, 1, nodes);
   PLACE(mesh->v, dim, nodes);
   PLACE(mesh->a, dim, nodes);

@@ -14,6 +14,7 @@
 #include "../measures/restitution.h"
 #include "simulation.h"
 #include "stability.h"
+#include "stable_dt.h"
 
 struct run {
   struct gx_team *team; /* borrowed */
@@ -334,49 +335,6 @@ static void finish(struct run *run)
   gx_simulation_free(&run->simulation);
 }
 
-/* What a step of a splitting drifts with kicks that no projection has seen, over dt^2 a. Beside the projected motion it damps where
- * it is positive; where it is negative (rkn3, pefrl) modes that projection weakens grow at any step. */
-static double unprojected_drift(const struct gx_splitting *splitting)
-{
-  double sum = 0;
-  for (int j = 0; j < splitting->stages; j++) sum += splitting->kick[j] * splitting->drift[j + 1];
-  return sum;
-}
-
-/* Few steps of many particles cost less than the power iteration, whose answer they do not need. */
-static bool is_worth_an_estimate(const struct gx_simulation *simulation)
-{
-  const double blink = 1e7; /* particle evaluations: tenths of a second */
-  double lattice = pow((double)simulation->space_options.cells[0] * simulation->per_cell, simulation->problem_options.dim);
-  double particles = simulation->points ? (double)simulation->points->n : lattice;
-  return simulation->steps >= GX_STABILITY_EVALUATIONS || particles * GX_STABILITY_EVALUATIONS <= blink;
-}
-
-/* The largest stable step, 0 when there is none, estimated on a fresh copy of the case; NaN where that would cost more than
- * the run. Projecting particle velocities to nodes multiplies a mode by
- * lambda in [0, 1]; with K its stiffness, rates see the frequency sqrt(lambda K). But a clock of kicks drifts with the kick it has
- * just given to the nodes, which is not projected: a step has trace 2 - dt^2 K and determinant 1 - dt^2 K (1 - lambda), and is
- * stable for dt^2 K (2 - lambda) < 4. Taken here: lambda = 0, which is safe, and K as if nodal velocities were
- * carried; with linear elements, whose highest frequency has lambda = 1/3, that is 9 % too small. */
-static double estimate_stable_dt(const struct gx_case *one, struct gx_team *team)
-{
-  struct gx_simulation simulation;
-  struct gx_outcome outcome;
-  double dt = NAN;
-  bool planned = gx_simulation_plan(&simulation, one, &outcome) == GX_OK;
-  simulation.space_options.team = team;
-  if (planned && simulation.problem->material->piola && is_worth_an_estimate(&simulation)) { /* without stress nothing vibrates */
-    bool projected = simulation.space_options.each_step && !simulation.clock->tableau;
-    if (projected) simulation.space_options.each_step = false;
-    if (projected && simulation.clock->splitting && unprojected_drift(simulation.clock->splitting) < 0)
-      dt = 0;
-    else if (gx_simulation_build(&simulation, &outcome) == GX_OK)
-      dt = simulation.clock->stability / gx_stability_frequency(simulation.space) * (projected ? M_SQRT1_2 : 1);
-  }
-  gx_simulation_free(&simulation);
-  return dt;
-}
-
 static struct gx_case without_measures(const struct gx_case *one)
 {
   struct gx_case bare = *one;
@@ -436,7 +394,7 @@ struct gx_result gx_case_run_by(const struct gx_case *one, struct gx_team *team)
     if (done && refine > 0) compare_with_reference(&run, one, refine);
   }
   finish(&run); /* first: the estimate takes as much memory as a run */
-  if (prepared) result.stable_dt = estimate_stable_dt(one, team);
+  if (prepared) result.stable_dt = gx_stable_dt(one, team);
   return result;
 }
 
@@ -480,7 +438,7 @@ struct gx_plan gx_case_plan(const struct gx_case *one)
   struct gx_simulation simulation;
   if (gx_simulation_plan(&simulation, one, &plan.outcome) == GX_OK && gx_simulation_build(&simulation, &plan.outcome) == GX_OK) {
     plan.particles = (double)simulation.particles->n;
-    plan.stable_dt = estimate_stable_dt(one, NULL);
+    plan.stable_dt = gx_stable_dt(one, NULL);
     if (!simulation.space->through_cells)
       plan.growth = gx_stability_growth(simulation.space); /* else it sees the flow's own stretching */
   }
