@@ -29,12 +29,13 @@ class Case(Studied):
         return json.loads(self.call("advise", study, "--json", *args).stdout)
 
     def cases(self, study="small.study"):
-        """Rows of the study that count, with their seconds: ended ok, by a step that is not above the stable one."""
+        """Rows of the study that count, with their seconds: ended ok, at a cost that is known, by a step not above the stable one."""
         with open(self.dir / study / "timing.csv", encoding="utf-8") as file:
-            seconds = {row["case"]: float(row["seconds"]) for row in csv.DictReader(file)}
+            seconds = {row["case"]: float(row["seconds"]) for row in csv.DictReader(file) if row["seconds"]}
         with open(self.dir / study / "table.csv", encoding="utf-8") as file:
-            rows = [{**row, "seconds": seconds[row["case"]]} for row in csv.DictReader(file)]
-        return rows, [r for r in rows if r["result.status"] == "ok" and float(r["result.dt"]) <= float(r["result.stable_dt"])]
+            rows = [{**row, "seconds": seconds.get(row["case"])} for row in csv.DictReader(file)]
+        return rows, [r for r in rows if r["result.status"] == "ok" and r["seconds"] is not None and
+                      float(r["result.dt"]) <= float(r["result.stable_dt"])]
 
 
 class Front(Case):
