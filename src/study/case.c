@@ -404,19 +404,20 @@ void gx_case_time(const struct gx_case *one, struct gx_team *team, size_t repeat
   if (!seconds) return;
   double *cost = seconds + repeats;
   struct gx_case bare = without_measures(one);
-  size_t done = 0;
+  size_t done = 0, known = 0; /* a cost lost in noise is not */
   for (; done < repeats; done++) {
     struct gx_result again = {.outcome = {.status = GX_OK, .particle = -1}};
     struct run run = {.team = team, .result = &again};
     bool failed = prepare(&run, &bare, 1) != GX_OK || march(&run) != GX_OK;
     finish(&run);
     if (failed) break; /* out of memory: the case itself ran */
-    seconds[done] = again.seconds;
-    cost[done] = again.ns_per_particle_step;
+    if (isnan(again.seconds)) continue;
+    seconds[known] = again.seconds;
+    cost[known++] = again.ns_per_particle_step;
   }
-  if (done == repeats) {
-    result->seconds = gsl_stats_median(seconds, 1, repeats);
-    result->ns_per_particle_step = gsl_stats_median(cost, 1, repeats);
+  if (done == repeats && known > 0) {
+    result->seconds = gsl_stats_median(seconds, 1, known);
+    result->ns_per_particle_step = gsl_stats_median(cost, 1, known);
   }
   free(seconds);
 }
