@@ -35,9 +35,9 @@ struct run {
   const char *accumulate; /* time.accumulate */
   double time, lost;      /* s; lost: what compensated summation carries */
   double kinetic_limit;   /* J */
-  double samples, timed;  /* taken; whose cost was read from the clock */
+  double samples, timed;  /* taken; of those after the first few, whose cost was read from the clock */
   double timed_seconds;   /* of processor time */
-  double observing;       /* s of it for jumps, spectra, frequency and budgets */
+  double observing;       /* s of it for the first few samples, jumps, spectra, frequency and budgets */
 };
 
 /* Of processor time that this thread and its team have worked: other cases, other programs and waiting for each other do not
@@ -175,16 +175,18 @@ static enum gx_status prepare(struct run *run, const struct gx_case *one, double
   return GX_OK;
 }
 
-/* Reading the clock costs as much as a step of a hundred particles: after the first samples it is read at some only. */
+enum { FIRST_SAMPLES = 16 };
+
+/* Reading the clock costs as much as a step of a hundred particles: after the first samples, which also pay for memory that is touched
+ * for the first time, it is read at some only. */
 static bool is_timed(double samples)
 {
-  const double some = 16;
-  return samples < some || fmod(samples, some) == 0;
+  return samples < FIRST_SAMPLES || fmod(samples, FIRST_SAMPLES) == 0;
 }
 
 static double measuring_seconds(const struct run *run)
 {
-  return run->observing + (run->timed > 0 ? run->timed_seconds * run->samples / run->timed : 0);
+  return run->observing + (run->timed > 0 ? run->timed_seconds * (run->samples - FIRST_SAMPLES) / run->timed : 0);
 }
 
 static bool is_due(double every, double step)
@@ -230,12 +232,12 @@ static enum gx_status take_sample(struct run *run, double step)
   bool transformed = is_due(run->spectra_every, step) || (last && run->spectra_every > 0);
   if (run->level == GX_MEASURE_FINAL && !last && !kept && !transformed) return GX_OK;
   bool reused = gx_stepper_starts_accelerated(run->stepper); /* by the next step: not a cost of measuring */
-  bool timed = is_timed(run->samples++);
+  bool timed = is_timed(run->samples), first = run->samples++ < FIRST_SAMPLES;
   if (reused) GX_TRY(gx_stepper_accelerate(run->stepper, run->time));
   double reading = timed ? seconds_now(run) : 0, before = timed ? seconds_now(run) : 0;
   GX_TRY(gx_measure_take(run->measure, run->stepper, run->time, simulation->dt));
-  if (timed) run->timed_seconds += seconds_now(run) - before - (before - reading);
-  run->timed += timed;
+  if (timed) *(first ? &run->observing : &run->timed_seconds) += seconds_now(run) - before - (before - reading);
+  run->timed += timed && !first;
   struct gx_history *history = &run->result->history;
   if (kept && history->probe) history->probe[history->samples] = *gx_measure_probe(run->measure);
   if (kept && history->budget) history->budget[history->samples] = run->budgeted;
