@@ -88,7 +88,7 @@ enum gx_status gx_spline_fit_create(struct gx_fit **fit, int p, bool periodic, s
                          p, degree, degree + 1, n);
   struct spline_fit *s = calloc(1, sizeof *s);
   if (!s) return gx_status_set(outcome, GX_FAILED, -1, "out of memory");
-  *s = (struct spline_fit){.fit = {&kind}, .periodic = periodic, .n = n, .point = point, .outcome = outcome};
+  *s = (struct spline_fit){.fit = {.kind = &kind}, .periodic = periodic, .n = n, .point = point, .outcome = outcome};
   struct gx_spline_error error = {.status = GX_SPLINE_OK};
   if (!gx_spline_interpolant_create(&s->even, periodic ? GX_SPLINE_PERIODIC : GX_SPLINE_EVEN, degree, n, &error) && !periodic)
     gx_spline_interpolant_create(&s->odd, GX_SPLINE_ODD, degree, n, &error);
