@@ -6,13 +6,13 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include <gridcross/paper.h>
 #include <gridcross/store.h>
 
 #include "../core/nearest.h"
 #include "../view/sheet.h"
+#include "progress.h"
 
 static const struct gx_option option[] = {
     {0, "list", NULL, "name the items and what they are"},
@@ -273,7 +273,14 @@ static int run_item(struct session *session, size_t index)
   if (!results) {
     if (study) gx_command_no_memory();
   } else {
-    gx_study_run(study, session->jobs, NULL, results);
+    char what[GX_PAPER_NAME_LENGTH + 48], name[GX_PAPER_NAME_LENGTH];
+    gx_paper_name(item, name);
+    snprintf(what, sizeof what, "%zu of %zu, %s", index + 1, session->count, name);
+    struct gx_progress_line line;
+    gx_progress_begin(&line, gx_options_value(session->options, "quiet"), what);
+    const struct gx_progress progress = {.context = &line, .done = gx_progress_done};
+    gx_study_run(study, session->jobs, &progress, results);
+    gx_progress_end(&line);
     table = gx_study_table(study, results, true);
     session->table[index] = table ? gx_paper_compare(item, table, &missed) : NULL;
     session->missed += missed;
@@ -343,14 +350,8 @@ static int report(const struct session *session)
 
 static int run_items(struct session *session)
 {
-  bool shows = !gx_options_value(session->options, "quiet") && isatty(STDERR_FILENO);
   int code = GX_EXIT_DONE;
-  for (size_t i = 0; i < session->count && !code; i++) {
-    if (shows)
-      fprintf(stderr, "\r\033[K%zu of %zu: %s/%s", i + 1, session->count, session->item[i]->paper, session->item[i]->item);
-    code = run_item(session, i);
-    if (shows) fputs("\r\033[K", stderr);
-  }
+  for (size_t i = 0; i < session->count && !code; i++) code = run_item(session, i);
   if (!code) code = report(session);
   for (size_t i = 0; i < session->count; i++) gx_table_free(session->table[i]);
   return code;

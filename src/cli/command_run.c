@@ -5,12 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
-#include <unistd.h>
 
 #include <gridcross/store.h>
 
 #include "../view/axes.h"
 #include "../view/sheet.h"
+#include "progress.h"
 
 static const struct gx_option option[] = {
     GX_COMMAND_SET,
@@ -56,16 +56,6 @@ static double now(void)
   struct timespec t;
   clock_gettime(CLOCK_MONOTONIC, &t);
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static void show_progress(void *context, size_t done, size_t total)
-{
-  const double *start = context;
-  double left = (now() - *start) / (double)done * (double)(total - done);
-  fprintf(stderr, "\r\033[K%zu of %zu cases", done, total);
-  if (done < total) fprintf(stderr, ", about %.0f s left", left);
-  if (done == total) fputs("\r\033[K", stderr);
-  fflush(stderr);
 }
 
 /* Time and particle matter where a case did not end well, restitution where there is one, timing where it was asked for. */
@@ -182,24 +172,26 @@ static int report(const struct gx_options *options, const struct gx_study *study
 
 static int run_study(const struct gx_options *options, const struct gx_study *study, const char *directory, size_t jobs)
 {
-  bool quiet = gx_options_value(options, "quiet");
   struct gx_result *results = calloc(study->count + 1, sizeof *results);
-  char *line = gx_options_line(options);
+  char *command = gx_options_line(options);
   int code = GX_EXIT_FAILED;
-  if (!results || !line) {
+  if (!results || !command) {
     gx_command_no_memory();
   } else {
     double start = now();
-    const struct gx_progress progress = {.context = &start, .done = show_progress};
-    gx_study_run(study, jobs, !quiet && isatty(STDERR_FILENO) ? &progress : NULL, results);
-    const struct gx_store_run about = {.command = line, .seconds = now() - start};
+    struct gx_progress_line line;
+    gx_progress_begin(&line, gx_options_value(options, "quiet"), "");
+    const struct gx_progress progress = {.context = &line, .done = gx_progress_done};
+    gx_study_run(study, jobs, &progress, results);
+    gx_progress_end(&line);
+    const struct gx_store_run about = {.command = command, .seconds = now() - start};
     int stored = gx_store_write(directory, study, results, &about, stderr);
     code = report(options, study, results, directory);
     if (stored) code = GX_EXIT_FAILED;
   }
   for (size_t i = 0; results && i < study->count; i++) gx_case_free(&results[i]);
   free(results);
-  free(line);
+  free(command);
   return code;
 }
 
