@@ -11,6 +11,7 @@ enum gx_status {
   GX_SINGULAR,    /* the consistent mass matrix is not positive definite */
   GX_REFUSED,     /* the combination of methods has no meaning; the reason says why */
   GX_FAILED,      /* an internal failure: out of memory, disk full */
+  GX_CANCELLED,   /* its caller wants it no more: no result, and in no table */
   GX_STATUSES
 };
 

@@ -3,6 +3,7 @@
 #ifndef GRIDCROSS_STUDY_H
 #define GRIDCROSS_STUDY_H
 
+#include <stdatomic.h>
 #include <stdio.h>
 
 #include <gridcross/budget.h>
@@ -94,25 +95,51 @@ struct gx_plan {
 
 /* Builds the case, so that it can fail for want of memory; once gsl_set_error_handler_off was called. */
 struct gx_plan gx_case_plan(const struct gx_case *one);
+/* What a case runs with; all is borrowed, and NULL where there is none. */
+struct gx_case_means {
+  struct gx_team *team; /* its threads share out the particles of 2-D and 3-D cases; equal bits for any team */
+  /* Looked at between steps: once true the case ends with the status cancelled, which is no result. */
+  const atomic_bool *cancel;
+};
+
 /* Runs one case; never aborts, once gsl_set_error_handler_off was called (gx_study_run does). */
 struct gx_result gx_case_run(const struct gx_case *one);
-/* The same by the threads of a team, which share out the particles of 2-D and 3-D cases; equal bits for any team. Results then
- * count the processor time of all of them. */
-struct gx_result gx_case_run_by(const struct gx_case *one, struct gx_team *team);
+/* The same with means. Results then count the processor time of all threads. */
+struct gx_result gx_case_run_by(const struct gx_case *one, const struct gx_case_means *means);
 /* Runs a case that ended ok as often again without measures, which slow down the steps around them, and sets seconds and
- * ns_per_particle_step to the medians. Changes nothing else. */
-void gx_case_time(const struct gx_case *one, struct gx_team *team, size_t repeats, struct gx_result *result);
+ * ns_per_particle_step to the medians. Changes nothing else, unless it is cancelled. */
+void gx_case_time(const struct gx_case *one, const struct gx_case_means *means, size_t repeats, struct gx_result *result);
 void gx_case_free(struct gx_result *result);
 
-/* Told after every case, by one thread at a time. */
+/* Told after every case, by one thread at a time. total: of those that are run. */
 struct gx_progress {
   void *context;
   void (*done)(void *context, size_t done, size_t total);
 };
 
-/* Runs every case on that many threads, as many cases at once as there are; threads that are left over join the teams of 2-D and 3-D
- * cases. Equal bits for any number. results: [count], filled. progress may be NULL. */
-void gx_study_run(const struct gx_study *study, size_t threads, const struct gx_progress *progress, struct gx_result *results);
+/* Takes the results of a study one by one, as cases end. */
+struct gx_sink {
+  void *context;
+  /* Called once for each case that was run, by any of the threads, by several at once for different cases. What the result owns may
+   * be moved out of it; the rest is freed afterwards. Other than 0: no case is begun any more, and those under way are cancelled. */
+  int (*done)(void *context, size_t index, struct gx_result *result);
+};
+
+/* A sink that keeps everything. results: [count], to be freed by gx_case_free one by one. */
+struct gx_sink gx_sink_array(struct gx_result *results);
+
+/* How a study is run. */
+struct gx_study_means {
+  size_t threads;                     /* as many cases at once; what is left over joins the teams of 2-D and 3-D cases */
+  struct gx_sink sink;                /* where results go */
+  const struct gx_progress *progress; /* borrowed; NULL: none */
+  const bool *skip;                   /* [count] cases that are not run, borrowed; NULL: none */
+  atomic_bool *cancel;                /* set by anyone at any time to end early, borrowed; NULL: nobody does */
+};
+
+/* Runs every case. Equal bits for any number of threads. Keeps no result. Returns 0, or -1 when it was cancelled or the sink failed:
+ * cases that the sink was not told of then have no result. */
+int gx_study_run(const struct gx_study *study, const struct gx_study_means *means);
 
 /* Columns case, every parameter, every result; timing columns last and only if asked. results: [count]. NULL when memory runs out. */
 struct gx_table *gx_study_table(const struct gx_study *study, const struct gx_result *results, bool timing);

@@ -56,7 +56,7 @@ static int balance(const struct gx_options *options, struct gx_study *study, siz
   if (gx_balance_prepare(study, file, stderr)) return GX_EXIT_USAGE;
   struct gx_result *results = calloc(study->count + 1, sizeof *results);
   if (!results) return gx_command_no_memory();
-  gx_study_run(study, jobs, NULL, results);
+  gx_study_run(study, &(struct gx_study_means){.threads = jobs, .sink = gx_sink_array(results)});
   int code = GX_EXIT_DONE;
   for (size_t i = 0; i < study->count && !code; i++) {
     if (results[i].outcome.status != GX_FAILED) continue;

@@ -279,7 +279,8 @@ static int run_item(struct session *session, size_t index)
     struct gx_progress_line line;
     gx_progress_begin(&line, gx_options_value(session->options, "quiet"), what);
     const struct gx_progress progress = {.context = &line, .done = gx_progress_done};
-    gx_study_run(study, session->jobs, &progress, results);
+    gx_study_run(study,
+                 &(struct gx_study_means){.threads = session->jobs, .sink = gx_sink_array(results), .progress = &progress});
     gx_progress_end(&line);
     table = gx_study_table(study, results, true);
     session->table[index] = table ? gx_paper_compare(item, table, &missed) : NULL;

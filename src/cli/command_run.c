@@ -182,7 +182,7 @@ static int run_study(const struct gx_options *options, const struct gx_study *st
     struct gx_progress_line line;
     gx_progress_begin(&line, gx_options_value(options, "quiet"), "");
     const struct gx_progress progress = {.context = &line, .done = gx_progress_done};
-    gx_study_run(study, jobs, &progress, results);
+    gx_study_run(study, &(struct gx_study_means){.threads = jobs, .sink = gx_sink_array(results), .progress = &progress});
     gx_progress_end(&line);
     const struct gx_store_run about = {.command = command, .seconds = now() - start};
     int stored = gx_store_write(directory, study, results, &about, stderr);

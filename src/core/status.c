@@ -15,6 +15,7 @@ const char *gx_status_name(enum gx_status status)
       [GX_SINGULAR] = "singular",
       [GX_REFUSED] = "refused",
       [GX_FAILED] = "failed",
+      [GX_CANCELLED] = "cancelled",
   };
   return names[status];
 }

@@ -17,7 +17,7 @@
 #include "stable_dt.h"
 
 struct run {
-  struct gx_team *team; /* borrowed */
+  struct gx_case_means means;
   struct gx_simulation simulation;
   struct gx_stepper *stepper;
   struct gx_measure *measure;
@@ -40,13 +40,18 @@ struct run {
   double observing;       /* s of it for the first few samples, jumps, spectra, frequency and budgets */
 };
 
+static bool is_cancelled(const struct gx_case_means *means)
+{
+  return means->cancel && atomic_load_explicit(means->cancel, memory_order_relaxed);
+}
+
 /* Of processor time that this thread and its team have worked: other cases, other programs and waiting for each other do not
  * count. */
 static double seconds_now(const struct run *run)
 {
   struct timespec now;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec + gx_team_seconds(run->team);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec + gx_team_seconds(run->means.team);
 }
 
 static enum gx_measure_level level_of(const struct gx_case *one)
@@ -131,7 +136,7 @@ static enum gx_status prepare(struct run *run, const struct gx_case *one, double
   struct gx_simulation *simulation = &run->simulation;
   struct gx_outcome *outcome = &run->result->outcome;
   GX_TRY(gx_simulation_plan(simulation, one, outcome));
-  simulation->space_options.team = run->team;
+  simulation->space_options.team = run->means.team;
   simulation->dt /= refine;
   simulation->steps *= refine;
   run->result->dt = simulation->dt;
@@ -298,6 +303,7 @@ static enum gx_status take_steps(struct run *run)
   GX_TRY(take_sample(run, 0));
   sample_frequency(run, 0);
   for (double step = 1; step <= simulation->steps; step++) {
+    if (is_cancelled(&run->means)) return gx_status_set(&result->outcome, GX_CANCELLED, -1, "cancelled");
     GX_TRY(take_budget(run, step));
     GX_TRY(gx_stepper_step(run->stepper, run->time, simulation->dt));
     if (simulation->jumps) measure_jumps(run);
@@ -354,9 +360,11 @@ static void compare_with_reference(const struct run *run, const struct gx_case *
 {
   struct gx_case bare = without_measures(one);
   struct gx_result result = {.outcome = {.status = GX_OK, .particle = -1}};
-  struct run fine = {.team = run->team, .result = &result};
+  struct run fine = {.means = run->means, .result = &result};
   if (prepare(&fine, &bare, refine) == GX_OK && march(&fine) == GX_OK)
     gx_measure_difference(run->measure, fine.measure, run->result->reference);
+  else if (result.outcome.status == GX_CANCELLED)
+    run->result->outcome = result.outcome;
   else
     snprintf(run->result->outcome.reason, GX_REASON_LENGTH, "no reference: at dt/%g %s, %.180s", refine,
              gx_status_name(result.outcome.status), result.outcome.reason);
@@ -365,10 +373,10 @@ static void compare_with_reference(const struct run *run, const struct gx_case *
 
 struct gx_result gx_case_run(const struct gx_case *one)
 {
-  return gx_case_run_by(one, NULL);
+  return gx_case_run_by(one, &(struct gx_case_means){0});
 }
 
-struct gx_result gx_case_run_by(const struct gx_case *one, struct gx_team *team)
+struct gx_result gx_case_run_by(const struct gx_case *one, const struct gx_case_means *means)
 {
   struct gx_result result = {.outcome = {.status = GX_OK, .particle = -1},
                              .dt = NAN,
@@ -381,7 +389,7 @@ struct gx_result gx_case_run_by(const struct gx_case *one, struct gx_team *team)
   for (int q = 0; q < GX_QUANTITIES; q++)
     for (int k = 0; k < GX_NORMS; k++) result.reference[q][k] = NAN;
   for (int i = 0; i < GX_BUDGET_ENTRIES; i++) result.budget.value[i] = NAN;
-  struct run run = {.team = team, .result = &result};
+  struct run run = {.means = *means, .result = &result};
   const bool prepared = prepare(&run, one, 1) == GX_OK;
   if (prepared) {
     double refine = (double)one->value[GX_OUTPUT_REFERENCE].integer;
@@ -396,11 +404,11 @@ struct gx_result gx_case_run_by(const struct gx_case *one, struct gx_team *team)
     if (done && refine > 0) compare_with_reference(&run, one, refine);
   }
   finish(&run); /* first: the estimate takes as much memory as a run */
-  if (prepared) result.stable_dt = gx_stable_dt(one, team);
+  if (prepared && result.outcome.status != GX_CANCELLED) result.stable_dt = gx_stable_dt(one, means->team);
   return result;
 }
 
-void gx_case_time(const struct gx_case *one, struct gx_team *team, size_t repeats, struct gx_result *result)
+void gx_case_time(const struct gx_case *one, const struct gx_case_means *means, size_t repeats, struct gx_result *result)
 {
   double *seconds = result->outcome.status == GX_OK && repeats ? calloc(2 * repeats, sizeof *seconds) : NULL;
   if (!seconds) return;
@@ -409,10 +417,11 @@ void gx_case_time(const struct gx_case *one, struct gx_team *team, size_t repeat
   size_t done = 0, known = 0; /* a cost lost in noise is not */
   for (; done < repeats; done++) {
     struct gx_result again = {.outcome = {.status = GX_OK, .particle = -1}};
-    struct run run = {.team = team, .result = &again};
+    struct run run = {.means = *means, .result = &again};
     bool failed = prepare(&run, &bare, 1) != GX_OK || march(&run) != GX_OK;
     finish(&run);
-    if (failed) break; /* out of memory: the case itself ran */
+    if (again.outcome.status == GX_CANCELLED) result->outcome = again.outcome;
+    if (failed) break; /* cancelled, or out of memory: the case itself ran */
     if (isnan(again.seconds)) continue;
     seconds[known] = again.seconds;
     cost[known++] = again.ns_per_particle_step;

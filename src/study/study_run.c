@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Runs the cases of a study on several threads. A case shares nothing with another, its result is stored by index, and teams give
+/* Runs the cases of a study on several threads. A case shares nothing with another, its result is told by its index, and teams give
  * equal bits, so the number of threads changes no bit of any result. */
 #include <gridcross/study.h>
 
@@ -13,10 +13,10 @@
 
 struct pool {
   const struct gx_study *study;
-  struct gx_result *results;
-  const struct gx_progress *progress;
+  const struct gx_study_means *means;
+  atomic_bool *cancel;
   pthread_mutex_t lock;
-  size_t next, done;
+  size_t next, done, total;
 };
 
 /* Runs one case after the other, with a team of so many threads. */
@@ -36,31 +36,64 @@ static bool has_room_for_a_team(const struct gx_study *study)
   return false;
 }
 
+static bool is_skipped(const struct pool *pool, size_t index)
+{
+  return pool->means->skip && pool->means->skip[index];
+}
+
+/* Whether there is one more to run; under the lock. */
+static bool take(struct pool *pool, size_t *index)
+{
+  while (pool->next < pool->study->count && is_skipped(pool, pool->next)) pool->next++;
+  if (atomic_load(pool->cancel) || pool->next == pool->study->count) return false;
+  *index = pool->next++;
+  return true;
+}
+
+/* Returns whether the sink has its result. */
+static bool run_one(struct pool *pool, size_t index, const struct gx_case_means *means)
+{
+  const struct gx_case *one = &pool->study->cases[index];
+  struct gx_result result = gx_case_run_by(one, means);
+  gx_case_time(one, means, pool->study->repeats, &result);
+  bool whole = result.outcome.status != GX_CANCELLED;
+  if (whole && pool->means->sink.done(pool->means->sink.context, index, &result)) {
+    atomic_store(pool->cancel, true);
+    whole = false;
+  }
+  gx_case_free(&result);
+  return whole;
+}
+
 static void *work(void *argument)
 {
   const struct worker *self = argument;
   struct pool *pool = self->pool;
+  const struct gx_progress *progress = pool->means->progress;
   struct gx_team *team = gx_team_create(self->threads);
+  const struct gx_case_means means = {.team = team, .cancel = pool->cancel};
+  size_t index;
   pthread_mutex_lock(&pool->lock);
-  while (pool->next < pool->study->count) {
-    size_t i = pool->next++;
+  while (take(pool, &index)) {
     pthread_mutex_unlock(&pool->lock);
-    pool->results[i] = gx_case_run_by(&pool->study->cases[i], team);
-    gx_case_time(&pool->study->cases[i], team, pool->study->repeats, &pool->results[i]);
+    bool done = run_one(pool, index, &means);
     pthread_mutex_lock(&pool->lock);
-    pool->done++;
-    if (pool->progress) pool->progress->done(pool->progress->context, pool->done, pool->study->count);
+    pool->done += done;
+    if (done && progress) progress->done(progress->context, pool->done, pool->total);
   }
   pthread_mutex_unlock(&pool->lock);
   gx_team_free(team);
   return NULL;
 }
 
-void gx_study_run(const struct gx_study *study, size_t threads, const struct gx_progress *progress, struct gx_result *results)
+int gx_study_run(const struct gx_study *study, const struct gx_study_means *means)
 {
-  struct pool pool = {.study = study, .results = results, .progress = progress, .lock = PTHREAD_MUTEX_INITIALIZER};
+  atomic_bool nobody = false;
+  struct pool pool = {
+      .study = study, .means = means, .cancel = means->cancel ? means->cancel : &nobody, .lock = PTHREAD_MUTEX_INITIALIZER};
   gsl_set_error_handler_off(); /* a matrix that cannot be factored is a result */
-  size_t workers = threads < study->count ? threads : study->count, started = 1;
+  for (size_t i = 0; i < study->count; i++) pool.total += !is_skipped(&pool, i);
+  size_t threads = means->threads, workers = threads < pool.total ? threads : pool.total, started = 1;
   if (workers < 1) workers = 1;
   struct worker alone = {.pool = &pool, .threads = 1}, *worker = calloc(workers, sizeof *worker);
   bool shared = has_room_for_a_team(study);
@@ -72,4 +105,5 @@ void gx_study_run(const struct gx_study *study, size_t threads, const struct gx_
   for (size_t i = 1; worker && i < started; i++) pthread_join(worker[i].thread, NULL);
   free(worker);
   pthread_mutex_destroy(&pool.lock);
+  return pool.done == pool.total ? 0 : -1;
 }
