@@ -47,6 +47,8 @@ def private(where, path, name, folder):
         bad.append(f'{where}: "{name}" lies outside src')
         return
     other = target.relative_to(source_root).parts[0]
+    if target == source_root / "store" / "handle.h" and folder != "store":
+        bad.append(f'{where}: "{name}" is HDF5, which store alone sees')
     if other == folder:
         return
     if RANK.get(other, len(LAYERS)) >= RANK[folder]:

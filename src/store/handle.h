@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What reading and writing HDF5 share. Included by the files of store/ that read or write HDF5, and by nobody else. */
+#ifndef GRIDCROSS_STORE_HANDLE_H
+#define GRIDCROSS_STORE_HANDLE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include <hdf5.h>
+
+#include <gridcross/value.h>
+
+enum {
+  GX_HDF5_FORMAT = 1,  /* of study.h5 */
+  GX_HANDLE_NAME = 256 /* room for a member's name */
+};
+
+/* HDF5 prints its error stack by default; we print one message instead. */
+struct gx_handle_silence {
+  H5E_auto2_t function;
+  void *data;
+};
+
+/* Keeps HDF5 silent, until what is returned is given to gx_handle_restore. */
+struct gx_handle_silence gx_handle_silence(void);
+void gx_handle_restore(struct gx_handle_silence old);
+
+/* Below, functions that return int give 0 or -1, those that return hid_t an identifier to be closed, or less than 0. */
+
+/* UTF-8 of any length. */
+hid_t gx_handle_text_type(void);
+/* A scalar attribute. */
+int gx_handle_put_attribute(hid_t object, const char *name, hid_t file_type, hid_t memory_type, const void *value);
+int gx_handle_put_text(hid_t object, const char *name, const char *text);
+int gx_handle_put_integer(hid_t object, const char *name, int64_t value);
+/* A text attribute, owned by the caller; NULL when there is none. */
+char *gx_handle_get_text(hid_t object, const char *name);
+int gx_handle_get_integer(hid_t object, const char *name, int64_t *value);
+
+/* A group whose members are listed in the order in which they were made. */
+hid_t gx_handle_make_group(hid_t parent, const char *name);
+/* Opens a member only when it is there. */
+hid_t gx_handle_open_group(hid_t file, const char *name);
+/* Name of a group's member in the order in which they were made; false: there is none. */
+bool gx_handle_member(hid_t group, hsize_t i, char name[GX_HANDLE_NAME]);
+
+/* One row of so many, without times. */
+hid_t gx_handle_make_dataset(hid_t group, const char *name, hid_t type, size_t rows);
+/* Number of rows and type of a dataset that can be a column, or -1. */
+hssize_t gx_handle_shape(hid_t dataset, enum gx_type *type);
+
+#endif

@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reading study.h5. */
+#include <gridcross/store.h>
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../core/nearest.h"
+#include "entry.h"
+#include "handle.h"
+
+static int get_column(hid_t dataset, const char *name, struct gx_table *table, size_t c)
+{
+  enum gx_type type;
+  if (gx_handle_shape(dataset, &type) != (hssize_t)table->rows) return -1;
+  int failed = -1;
+  char *unit = gx_handle_get_text(dataset, "unit");
+  union gx_entry *entry = calloc(table->rows + 1, sizeof *entry);
+  hid_t text = gx_handle_text_type(), space = H5Dget_space(dataset);
+  hid_t memory_type = type == GX_REAL ? H5T_NATIVE_DOUBLE : type == GX_INTEGER ? H5T_NATIVE_INT64 : text;
+  if (entry && text >= 0 && space >= 0 && H5Dread(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, entry) >= 0) {
+    failed = gx_table_column(table, c, name, unit ? unit : "", type);
+    for (size_t r = 0; r < table->rows && !failed; r++) failed = gx_table_set(table, r, c, gx_entry_value(type, entry[r]));
+    if (type == GX_TEXT) H5Dvlen_reclaim(text, space, H5P_DEFAULT, entry);
+  }
+  if (space >= 0) H5Sclose(space);
+  if (text >= 0) H5Tclose(text);
+  free(entry);
+  free(unit);
+  return failed;
+}
+
+static struct gx_table *get_table(hid_t group)
+{
+  struct gx_table *table = NULL;
+  H5G_info_t info;
+  if (H5Gget_info(group, &info) < 0 || info.nlinks == 0) return NULL;
+  for (hsize_t c = 0; c < info.nlinks; c++) {
+    char name[GX_HANDLE_NAME];
+    enum gx_type type;
+    int failed = -1;
+    if (gx_handle_member(group, c, name)) {
+      hid_t dataset = H5Dopen2(group, name, H5P_DEFAULT);
+      hssize_t rows = dataset < 0 ? -1 : gx_handle_shape(dataset, &type);
+      if (!table && rows >= 0) table = gx_table_create(info.nlinks, (size_t)rows);
+      if (table && dataset >= 0) failed = get_column(dataset, name, table, c);
+      if (dataset >= 0) H5Dclose(dataset);
+    }
+    if (!failed) continue;
+    gx_table_free(table);
+    return NULL;
+  }
+  return table;
+}
+
+/* A study file of our format, or -1 after a message. */
+static hid_t open_study(const char *path, FILE *errors)
+{
+  int64_t format = 0;
+  FILE *probe = fopen(path, "rb");
+  if (!probe) {
+    fprintf(errors, "%s: %s\n", path, strerror(errno));
+    return -1;
+  }
+  fclose(probe);
+  hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file < 0) {
+    fprintf(errors, "%s: is damaged or not an HDF5 file\n", path);
+    return -1;
+  }
+  hid_t provenance = gx_handle_open_group(file, "provenance"), table = gx_handle_open_group(file, "table");
+  bool ours = provenance >= 0 && table >= 0 && !gx_handle_get_integer(provenance, "format", &format);
+  if (!ours)
+    fprintf(errors, "%s: is not a study that gridcross wrote\n", path);
+  else if (format != GX_HDF5_FORMAT)
+    fprintf(errors, "%s: has format %lld; this gridcross reads format %d\n", path, (long long)format, GX_HDF5_FORMAT);
+  if (table >= 0) H5Gclose(table);
+  if (provenance >= 0) H5Gclose(provenance);
+  if (ours && format == GX_HDF5_FORMAT) return file;
+  H5Fclose(file);
+  return -1;
+}
+
+struct gx_table *gx_hdf5_read(const char *path, FILE *errors)
+{
+  struct gx_handle_silence old = gx_handle_silence();
+  struct gx_table *table = NULL;
+  hid_t file = open_study(path, errors), group = file < 0 ? -1 : gx_handle_open_group(file, "table");
+  if (group >= 0 && !(table = get_table(group))) fprintf(errors, "%s: its table is damaged\n", path);
+  if (group >= 0) H5Gclose(group);
+  if (file >= 0) H5Fclose(file);
+  gx_handle_restore(old);
+  return table;
+}
+
+char *gx_hdf5_read_title(const char *path, FILE *errors)
+{
+  struct gx_handle_silence old = gx_handle_silence();
+  char *title = NULL;
+  hid_t file = open_study(path, errors), provenance = file < 0 ? -1 : gx_handle_open_group(file, "provenance");
+  if (provenance >= 0 && !(title = gx_handle_get_text(provenance, "title"))) fprintf(errors, "%s: its title is damaged\n", path);
+  if (provenance >= 0) H5Gclose(provenance);
+  if (file >= 0) H5Fclose(file);
+  gx_handle_restore(old);
+  return title;
+}
+
+static void name_histories(hid_t group, const char *wanted, FILE *errors)
+{
+  struct gx_nearest near = {.word = wanted};
+  const char *gap = "; there are: ";
+  char name[GX_HANDLE_NAME];
+  for (hsize_t i = 0; gx_handle_member(group, i, name); i++) gx_nearest_try(&near, name);
+  fprintf(errors, "gridcross: no history '%s'", wanted);
+  if (*near.best) fprintf(errors, ": did you mean %s?", near.best);
+  for (hsize_t i = 0; gx_handle_member(group, i, name); i++, gap = ", ") fprintf(errors, "%s%s", gap, name);
+  putc('\n', errors);
+}
+
+static struct gx_table *get_history(hid_t group, const char *name)
+{
+  const char *const column[] = {"time", name};
+  struct gx_table *table = NULL;
+  int failed = 0;
+  for (size_t c = 0; c < 2 && !failed; c++) {
+    enum gx_type type;
+    hid_t dataset = H5Dopen2(group, column[c], H5P_DEFAULT);
+    hssize_t rows = dataset < 0 ? -1 : gx_handle_shape(dataset, &type);
+    if (!table && rows >= 0) table = gx_table_create(2, (size_t)rows);
+    failed = !table || rows < 0 || get_column(dataset, column[c], table, c);
+    if (dataset >= 0) H5Dclose(dataset);
+  }
+  if (!failed) return table;
+  gx_table_free(table);
+  return NULL;
+}
+
+/* A group that put_kept wrote, or -1 after a message. */
+static hid_t open_kept(hid_t file, const char *path, const char *name, const char *id, FILE *errors)
+{
+  hid_t all = gx_handle_open_group(file, name), group = all < 0 ? -1 : gx_handle_open_group(all, id);
+  if (group < 0)
+    fprintf(errors, "%s: has no %s of case %s: set output.%s in its run file, and run that again\n", path, name, id, name);
+  if (all >= 0) H5Gclose(all);
+  return group;
+}
+
+struct gx_table *gx_hdf5_read_history(const char *path, const char *id, const char *name, FILE *errors)
+{
+  struct gx_handle_silence old = gx_handle_silence();
+  struct gx_table *table = NULL;
+  hid_t file = open_study(path, errors), group = file < 0 ? -1 : open_kept(file, path, "histories", id, errors);
+  if (group >= 0 && (!*name || strchr(name, '/') || H5Lexists(group, name, H5P_DEFAULT) <= 0))
+    name_histories(group, name, errors);
+  else if (group >= 0 && !(table = get_history(group, name)))
+    fprintf(errors, "%s: the history of case %s is damaged\n", path, id);
+  if (group >= 0) H5Gclose(group);
+  if (file >= 0) H5Fclose(file);
+  gx_handle_restore(old);
+  return table;
+}
+
+struct gx_table *gx_hdf5_read_spectra(const char *path, const char *id, FILE *errors)
+{
+  struct gx_handle_silence old = gx_handle_silence();
+  struct gx_table *table = NULL;
+  hid_t file = open_study(path, errors), group = file < 0 ? -1 : open_kept(file, path, "spectra", id, errors);
+  if (group >= 0 && !(table = get_table(group))) fprintf(errors, "%s: the spectra of case %s are damaged\n", path, id);
+  if (group >= 0) H5Gclose(group);
+  if (file >= 0) H5Fclose(file);
+  gx_handle_restore(old);
+  return table;
+}
