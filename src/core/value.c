@@ -7,8 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "decimal.h"
+
 void gx_value_real(double value, char text[GX_NUMBER_LENGTH])
 {
+  if (gx_decimal_print(value, text)) return;
   for (int digits = 15; digits <= 17; digits++) {
     snprintf(text, GX_NUMBER_LENGTH, "%.*g", digits, value);
     if (strtod(text, NULL) == value) return;

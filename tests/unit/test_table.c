@@ -84,6 +84,36 @@ static void numbers_read_back_bit_for_bit(void **state)
   }
 }
 
+/* Against the first of %.15g to %.17g that reads back. */
+static void prints_as_printf(double x)
+{
+  char printed[GX_NUMBER_LENGTH], expected[GX_NUMBER_LENGTH];
+  int digits = 14;
+  do snprintf(expected, sizeof expected, "%.*g", ++digits, x);
+  while (digits < 17 && strtod(expected, NULL) != x);
+  gx_value_real(x, printed);
+  assert_string_equal(printed, expected);
+}
+
+/* Every magnitude, short numbers, and powers of two, whose neighbours are not equally far. */
+static void numbers_print_as_printf_prints_them(void **state)
+{
+  (void)state;
+  uint64_t bits = 88172645463325252u;
+  for (int i = 0; i < 200000; i++) {
+    bits ^= bits << 13, bits ^= bits >> 7, bits ^= bits << 17;
+    double share = (double)(bits >> 11) * 0x1p-53;
+    const double kinds[] = {share - 0.5, exp(-100 + 160 * share), ldexp(1, (int)(bits % 200) - 140),
+                            nearbyint(1e6 * share) / 1000};
+    char shortened[GX_NUMBER_LENGTH];
+    snprintf(shortened, sizeof shortened, "%.*g", 1 + i % 17, kinds[i % 4]);
+    prints_as_printf(i % 8 < 4 ? kinds[i % 4] : strtod(shortened, NULL));
+  }
+  const double edges[] = {0,      -0.0,  1,       -1, 1e15, 1e16, 1e17, 123456789012345, 1e-4, 1e-5, 9.9999999999999995e-5,
+                          5e-324, 1e300, INFINITY};
+  for (size_t i = 0; i < sizeof edges / sizeof *edges; i++) prints_as_printf(edges[i]);
+}
+
 static void values_have_an_order(void **state)
 {
   (void)state;
@@ -302,6 +332,7 @@ int main(void)
       cmocka_unit_test(tables_beyond_memory_are_refused),
       cmocka_unit_test(columns_copy_with_their_texts),
       cmocka_unit_test(numbers_read_back_bit_for_bit),
+      cmocka_unit_test(numbers_print_as_printf_prints_them),
       cmocka_unit_test(values_have_an_order),
       cmocka_unit_test(a_study_has_the_columns_that_scripts_know),
       cmocka_unit_test(a_case_that_did_not_end_well_has_no_errors),
