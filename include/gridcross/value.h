@@ -20,6 +20,7 @@ enum { GX_NUMBER_LENGTH = 32 };
 
 /* The shortest of 15 to 17 significant digits that reads back bit for bit. */
 void gx_value_real(double value, char text[GX_NUMBER_LENGTH]);
+void gx_value_integer(long value, char text[GX_NUMBER_LENGTH]);
 /* A number as double; NaN: null or text. */
 double gx_value_number(struct gx_value value);
 /* A number as value; null where it is not finite. */

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BLOCK = 1 << 16 };
+enum { FIRST_BLOCK = 1 << 12, LARGEST_BLOCK = 1 << 16 }; /* each twice the one before: tiny cases take little */
 
 struct gx_arena_block {
   struct gx_arena_block *older;
@@ -22,7 +22,8 @@ void *gx_arena_take(struct gx_arena *arena, size_t bytes)
   bytes = (bytes + unit - 1) / unit * unit;
   struct gx_arena_block *block = arena->block;
   if (!block || block->room - block->used < bytes) {
-    size_t room = bytes > BLOCK ? bytes : BLOCK;
+    size_t room = !block ? FIRST_BLOCK : block->room < LARGEST_BLOCK ? 2 * block->room : LARGEST_BLOCK;
+    if (room < bytes) room = bytes;
     block = calloc(1, sizeof *block + room);
     if (!block) return NULL;
     *block = (struct gx_arena_block){.older = arena->block, .room = room};

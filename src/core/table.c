@@ -66,9 +66,17 @@ static const char *keep_text(struct gx_table *table, const char *text)
   return copy;
 }
 
+/* Most texts are those of the row above. */
+static const char *find_text(struct gx_table *table, size_t row, size_t column, const char *text)
+{
+  struct gx_value above = {.type = GX_NULL};
+  if (row) above = gx_table_get(table, row - 1, column);
+  return above.type == GX_TEXT && !strcmp(above.text, text) ? above.text : keep_text(table, text);
+}
+
 int gx_table_set(struct gx_table *table, size_t row, size_t column, struct gx_value value)
 {
-  if (value.type == GX_TEXT && !(value.text = keep_text(table, value.text))) return -1;
+  if (value.type == GX_TEXT && !(value.text = find_text(table, row, column, value.text))) return -1;
   table->value[row * table->columns + column] = value;
   return 0;
 }

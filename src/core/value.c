@@ -18,6 +18,18 @@ void gx_value_real(double value, char text[GX_NUMBER_LENGTH])
   }
 }
 
+void gx_value_integer(long value, char text[GX_NUMBER_LENGTH])
+{
+  char digit[GX_NUMBER_LENGTH];
+  int digits = 0;
+  unsigned long rest = value < 0 ? 0 - (unsigned long)value : (unsigned long)value;
+  do digit[digits++] = (char)('0' + rest % 10);
+  while (rest /= 10);
+  if (value < 0) *text++ = '-';
+  while (digits) *text++ = digit[--digits];
+  *text = '\0';
+}
+
 double gx_value_number(struct gx_value value)
 {
   return value.type == GX_INTEGER ? (double)value.integer : value.type == GX_REAL ? value.real : NAN;

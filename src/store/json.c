@@ -24,7 +24,8 @@ static void write_value(struct gx_value value, FILE *out)
 {
   char number[GX_NUMBER_LENGTH];
   if (value.type == GX_INTEGER) {
-    fprintf(out, "%ld", value.integer);
+    gx_value_integer(value.integer, number);
+    fputs(number, out);
   } else if (value.type == GX_TEXT) {
     write_text(value.text, out);
   } else if (value.type == GX_REAL && isfinite(value.real)) {

@@ -120,13 +120,13 @@ static uint64_t hash_case(struct expansion *expansion, const struct gx_value *va
 {
   uint64_t hash = UINT64_C(0xcbf29ce484222325);
   for (int id = 0; id < GX_PARAMETERS; id++) {
-    char integer[32];
+    char integer[GX_NUMBER_LENGTH];
     const char *text = NULL;
     switch (value[id].type) {
     case GX_NULL:
       continue;
     case GX_INTEGER:
-      snprintf(integer, sizeof integer, "%ld", value[id].integer);
+      gx_value_integer(value[id].integer, integer);
       text = integer;
       break;
     case GX_REAL:

@@ -3,6 +3,7 @@
 #include <gridcross/study.h>
 
 #include <math.h>
+#include <stdarg.h>
 
 static const char *const norms[GX_NORMS] = {[GX_INF] = "inf", [GX_RMS] = "rms", [GX_L2N] = "l2n"};
 
@@ -12,7 +13,19 @@ struct cursor {
   bool naming;
   size_t row, column;
   int failed;
+  char name[80];
 };
+
+/* Only the pass that names columns needs names: printing them would be most of filling a row. */
+__attribute__((format(printf, 2, 3))) static const char *named(struct cursor *at, const char *format, ...)
+{
+  if (!at->naming) return "";
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(at->name, sizeof at->name, format, arguments);
+  va_end(arguments);
+  return at->name;
+}
 
 static void put(struct cursor *at, const char *name, const char *unit, enum gx_type type, struct gx_value value)
 {
@@ -41,18 +54,14 @@ static void put_count(struct cursor *at, const char *name, double count)
 static void put_errors(struct cursor *at, const char *prefix, const char *moment, const double error[GX_QUANTITIES][GX_NORMS],
                        int quantity, bool valid)
 {
-  for (int n = 0; n < GX_NORMS; n++) {
-    char name[80];
-    snprintf(name, sizeof name, "%s%s%s.%s", prefix, gx_measure_quantity[quantity].name, moment, norms[n]);
-    put_real(at, name, gx_measure_quantity[quantity].unit, valid ? error[quantity][n] : NAN);
-  }
+  for (int n = 0; n < GX_NORMS; n++)
+    put_real(at, named(at, "%s%s%s.%s", prefix, gx_measure_quantity[quantity].name, moment, norms[n]),
+             gx_measure_quantity[quantity].unit, valid ? error[quantity][n] : NAN);
 }
 
 static void put_norm(struct cursor *at, const char *prefix, int norm, double length)
 {
-  char name[80];
-  snprintf(name, sizeof name, "%s.%s", prefix, norms[norm]);
-  put_real(at, name, "m", length);
+  put_real(at, named(at, "%s.%s", prefix, norms[norm]), "m", length);
 }
 
 /* Of the last spectrum, and how the part above Nyquist's wavenumber has grown. */
@@ -65,14 +74,12 @@ static void put_spectrum(struct cursor *at, const struct gx_result *result, enum
     double low, high;
   } band[] = {{"below", -1, nyquist}, {"above", nyquist, INFINITY}, {"driven", spectra->driven - half, spectra->driven + half}};
   bool any = result->outcome.status == GX_OK && spectra->samples;
-  char name[80];
-  for (size_t i = 0; i < sizeof band / sizeof *band; i++) {
-    snprintf(name, sizeof name, "result.spectrum.%s.%s", gx_measure_quantity[quantity].name, band[i].name);
-    put_real(at, name, gx_measure_quantity[quantity].unit,
+  for (size_t i = 0; i < sizeof band / sizeof *band; i++)
+    put_real(at, named(at, "result.spectrum.%s.%s", gx_measure_quantity[quantity].name, band[i].name),
+             gx_measure_quantity[quantity].unit,
              any ? gx_spectrum_band(spectra, spectra->samples - 1, quantity, band[i].low, band[i].high) : NAN);
-  }
-  snprintf(name, sizeof name, "result.spectrum.%s.growth", gx_measure_quantity[quantity].name);
-  put_real(at, name, "1/s", any ? gx_spectrum_growth(spectra, quantity, nyquist, INFINITY) : NAN);
+  put_real(at, named(at, "result.spectrum.%s.growth", gx_measure_quantity[quantity].name), "1/s",
+           any ? gx_spectrum_growth(spectra, quantity, nyquist, INFINITY) : NAN);
 }
 
 static void put_frequency(struct cursor *at, const struct gx_result *result)
@@ -88,11 +95,9 @@ static void put_frequency(struct cursor *at, const struct gx_result *result)
 
 static void put_budget(struct cursor *at, const char *prefix, const struct gx_budget_values *budget, bool valid)
 {
-  for (int i = 0; i < GX_BUDGET_ENTRIES; i++) {
-    char name[80];
-    snprintf(name, sizeof name, "%sbudget.%s", prefix, gx_budget_columns[i].name);
-    put_real(at, name, gx_budget_columns[i].unit, valid ? budget->value[i] : NAN);
-  }
+  for (int i = 0; i < GX_BUDGET_ENTRIES; i++)
+    put_real(at, named(at, "%sbudget.%s", prefix, gx_budget_columns[i].name), gx_budget_columns[i].unit,
+             valid ? budget->value[i] : NAN);
 }
 
 static void put_case(struct cursor *at, const struct gx_case *one, const struct gx_result *result, bool timing)
@@ -140,25 +145,15 @@ static void put_case(struct cursor *at, const struct gx_case *one, const struct 
 /* Linear momentum by component; angular momentum: none in 1-D, along z in 2-D, a vector in 3-D. */
 static void put_momentum(struct cursor *at, int dim, const struct gx_sample *sample)
 {
-  char name[80];
-  for (int d = 0; d < dim; d++) {
-    snprintf(name, sizeof name, "momentum.%c", "xyz"[d]);
-    put_real(at, name, "kg m/s", sample->momentum[d]);
-  }
-  for (int d = dim == 3 ? 0 : 2; d < GX_MAX_DIM && dim > 1; d++) {
-    snprintf(name, sizeof name, "angular.%c", "xyz"[d]);
-    put_real(at, name, "kg m^2/s", sample->angular[d]);
-  }
+  for (int d = 0; d < dim; d++) put_real(at, named(at, "momentum.%c", "xyz"[d]), "kg m/s", sample->momentum[d]);
+  for (int d = dim == 3 ? 0 : 2; d < GX_MAX_DIM && dim > 1; d++)
+    put_real(at, named(at, "angular.%c", "xyz"[d]), "kg m^2/s", sample->angular[d]);
 }
 
 /* One column in 1-D, one a component in 2-D and 3-D. */
 static void put_vector(struct cursor *at, const char *name, const char *unit, int dim, const double *vector)
 {
-  for (int d = 0; d < dim; d++) {
-    char full[80];
-    snprintf(full, sizeof full, dim > 1 ? "%s.%c" : "%s", name, "xyz"[d]);
-    put_real(at, full, unit, vector[d]);
-  }
+  for (int d = 0; d < dim; d++) put_real(at, dim > 1 ? named(at, "%s.%c", name, "xyz"[d]) : name, unit, vector[d]);
 }
 
 static void put_jumps(struct cursor *at, const struct gx_sample *sample)

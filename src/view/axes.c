@@ -124,7 +124,7 @@ long gx_axes_find(const struct gx_table *table, size_t chosen, size_t *axis)
     if (count >= 0 && (groups = gx_axes_refine(table->rows, group, rank)) < 0) count = -1;
   }
   for (size_t c = 0; c < table->columns && count >= 0; c++) {
-    if (!gx_axes_parameter(table, c)) continue;
+    if (!gx_axes_parameter(table, c) || !gx_axes_vary(table, c)) continue; /* most columns of a study hold one value */
     memcpy(trial, group, table->rows * sizeof *trial);
     long split = gx_axes_rank(table, c, rank) < 0 ? -1 : gx_axes_refine(table->rows, trial, rank);
     if (split < 0) count = -1;

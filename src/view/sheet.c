@@ -35,7 +35,7 @@ const char *gx_sheet_text(const char *column, struct gx_value value, char buffer
   if (value.type == GX_TEXT) return value.text;
   if (value.type == GX_NULL) return "-";
   if (value.type == GX_INTEGER) {
-    snprintf(buffer, GX_NUMBER_LENGTH, "%ld", value.integer);
+    gx_value_integer(value.integer, buffer);
   } else if (strncmp(column, "result.", 7) != 0) {
     gx_value_real(value.real, buffer);
     gx_sheet_shorten(buffer);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tables, values, and the columns of a study. */
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -112,6 +113,13 @@ static void numbers_print_as_printf_prints_them(void **state)
   const double edges[] = {0,      -0.0,  1,       -1, 1e15, 1e16, 1e17, 123456789012345, 1e-4, 1e-5, 9.9999999999999995e-5,
                           5e-324, 1e300, INFINITY};
   for (size_t i = 0; i < sizeof edges / sizeof *edges; i++) prints_as_printf(edges[i]);
+  const long integers[] = {0, 7, -1, 1000000, LONG_MAX, LONG_MIN};
+  for (size_t i = 0; i < sizeof integers / sizeof *integers; i++) {
+    char printed[GX_NUMBER_LENGTH], expected[GX_NUMBER_LENGTH];
+    gx_value_integer(integers[i], printed);
+    snprintf(expected, sizeof expected, "%ld", integers[i]);
+    assert_string_equal(printed, expected);
+  }
 }
 
 static void values_have_an_order(void **state)
