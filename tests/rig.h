@@ -4,7 +4,7 @@
 #define GRIDCROSS_TESTS_RIG_H
 
 #include "case_of.h"
-#include "study/simulation.h"
+#include "study/simulation_plan.h"
 
 struct rig {
   struct gx_simulation simulation;

@@ -26,6 +26,10 @@ struct gx_outcome {
 /* "ok", "left-domain", ... as result.status prints them */
 const char *gx_status_name(enum gx_status status);
 
+/* Switches off GSL's error handler, which would end the program: what fails there becomes an outcome. Once, before anything is built
+ * or run; gx_study_run does. */
+void gx_status_quiet_gsl(void);
+
 /* Fills outcome and returns status, so that a failure is reported by one statement. */
 enum gx_status gx_status_set(struct gx_outcome *outcome, enum gx_status status, long particle, const char *format, ...)
     __attribute__((format(printf, 4, 5)));

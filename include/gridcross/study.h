@@ -93,7 +93,7 @@ struct gx_plan {
   double growth;             /* largest real part of the eigenvalues at the start, 1/s; NaN: unknown */
 };
 
-/* Builds the case, so that it can fail for want of memory; once gsl_set_error_handler_off was called. */
+/* Builds the case, so that it can fail for want of memory; once gx_status_quiet_gsl was called. */
 struct gx_plan gx_case_plan(const struct gx_case *one);
 /* What a case runs with; all is borrowed, and NULL where there is none. */
 struct gx_case_means {
@@ -102,7 +102,7 @@ struct gx_case_means {
   const atomic_bool *cancel;
 };
 
-/* Runs one case; never aborts, once gsl_set_error_handler_off was called (gx_study_run does). */
+/* Runs one case; never aborts, once gx_status_quiet_gsl was called (gx_study_run does). */
 struct gx_result gx_case_run(const struct gx_case *one);
 /* The same with means. Results then count the processor time of all threads. */
 struct gx_result gx_case_run_by(const struct gx_case *one, const struct gx_case_means *means);

@@ -3,9 +3,8 @@
 #include <errno.h>
 #include <string.h>
 
-#include <gsl/gsl_errno.h>
-
 #include <gridcross/build.h>
+#include <gridcross/status.h>
 
 #include "../core/nearest.h"
 #include "command.h"
@@ -86,7 +85,7 @@ static int run_command(int argc, char **argv)
 
 int main(int argc, char **argv)
 {
-  gsl_set_error_handler_off();
+  gx_status_quiet_gsl();
   int code = run_command(argc, argv);
   /* A full disk or a closed pipe shows only when the last bytes leave. */
   if (fflush(stdout) || ferror(stdout)) {

@@ -5,6 +5,8 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include <gsl/gsl_errno.h>
+
 const char *gx_status_name(enum gx_status status)
 {
   static const char *const names[GX_STATUSES] = {
@@ -18,6 +20,11 @@ const char *gx_status_name(enum gx_status status)
       [GX_CANCELLED] = "cancelled",
   };
   return names[status];
+}
+
+void gx_status_quiet_gsl(void)
+{
+  gsl_set_error_handler_off();
 }
 
 enum gx_status gx_status_set(struct gx_outcome *outcome, enum gx_status status, long particle, const char *format, ...)

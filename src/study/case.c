@@ -12,7 +12,7 @@
 
 #include "../core/team.h"
 #include "../measures/restitution.h"
-#include "simulation.h"
+#include "simulation_plan.h"
 #include "stability.h"
 #include "stable_dt.h"
 
@@ -398,7 +398,7 @@ struct gx_result gx_case_run_by(const struct gx_case *one, const struct gx_case_
     if (run.restitution) result.restitution = gx_restitution_value(run.restitution);
     if (run.simulation.space_options.reconstructed) result.left_cells = (double)run.simulation.space->left_cells;
     if (run.budget) result.budget = gx_budget_mean(run.budget);
-    result.frequency = run.simulation.frequency;
+    result.frequency = gx_simulation_frequency(&run.simulation);
     result.kh = 2 * M_PI * run.simulation.problem_options.mode / run.simulation.space_options.cells[0];
     result.vibration = gx_frequency_fit(&run.frequency, 1e-9 * fabs(run.simulation.problem_options.amplitude));
     if (done && refine > 0) compare_with_reference(&run, one, refine);

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-#include "simulation.h"
+#include "simulation_plan.h"
 #include "stability.h"
 
 /* What a step of a splitting drifts with kicks that no projection has seen, over dt^2 a. Beside the projected motion it damps where

@@ -7,8 +7,6 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-#include <gsl/gsl_errno.h>
-
 #include "../core/team.h"
 
 struct pool {
@@ -91,7 +89,7 @@ int gx_study_run(const struct gx_study *study, const struct gx_study_means *mean
   atomic_bool nobody = false;
   struct pool pool = {
       .study = study, .means = means, .cancel = means->cancel ? means->cancel : &nobody, .lock = PTHREAD_MUTEX_INITIALIZER};
-  gsl_set_error_handler_off(); /* a matrix that cannot be factored is a result */
+  gx_status_quiet_gsl(); /* a matrix that cannot be factored is a result */
   for (size_t i = 0; i < study->count; i++) pool.total += !is_skipped(&pool, i);
   size_t threads = means->threads, workers = threads < pool.total ? threads : pool.total, started = 1;
   if (workers < 1) workers = 1;

@@ -10,7 +10,7 @@
 #include <time.h>
 
 #include "plain.h"
-#include "study/simulation.h"
+#include "study/simulation_plan.h"
 
 enum { SHORT = 8, MOST_REPETITIONS = 1000 };
 

@@ -9,7 +9,7 @@
 #include <gsl/gsl_bspline.h>
 #include <gsl/gsl_errno.h>
 
-#include "study/simulation.h"
+#include "study/simulation_plan.h"
 
 enum { REPETITIONS = 15, BOX_REPETITIONS = 5, CELLS = 40, PER_CELL = 2 };
 

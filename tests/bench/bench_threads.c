@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "core/team.h"
-#include "study/simulation.h"
+#include "study/simulation_plan.h"
 
 enum { CELLS = 32, CELLS_FOR_MEMORY = 24, PER_CELL = 2, STEPS = 8, MOST_THREADS = 2 };
 

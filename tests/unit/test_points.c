@@ -11,7 +11,7 @@
 #include <gridcross/store.h>
 
 #include "check.h"
-#include "study/simulation.h"
+#include "study/simulation_plan.h"
 
 static char folder[] = "test_points_XXXXXX";
 
