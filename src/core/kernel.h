@@ -4,7 +4,9 @@
 #define GRIDCROSS_CORE_KERNEL_H
 
 /* An elementwise kernel compiled for several instruction sets; equal bits, since nothing contracts to FMA. */
-#if GX_HAVE_CLONES
+#if GX_HAVE_CLONES > 1 /* AVX-512, whose vectors gcc makes 512 bits wide at this level */
+#define GX_CLONES __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
+#elif GX_HAVE_CLONES
 #define GX_CLONES __attribute__((target_clones("avx2", "default")))
 #else
 #define GX_CLONES
