@@ -6,6 +6,7 @@
 
 #include <stdio.h>
 
+#include <gridcross/page.h>
 #include <gridcross/table.h>
 
 struct gx_advice {
@@ -21,7 +22,7 @@ struct gx_advice {
  * and those whose step is above the stable one, do not take part here or below; notes to `errors`, where every message goes, tell
  * how many there were. Every function returns 0 (or a table), or -1 (NULL) after a message: what is asked for is not there, or
  * the cases are of different problems. */
-int gx_advise_print(const struct gx_advice *advice, FILE *out, FILE *errors);
+int gx_advise_print(const struct gx_advice *advice, const struct gx_page *page, FILE *out, FILE *errors);
 /* The front, one row a case, cheapest first: case, what varies, the error, result.seconds, result.dt, result.stable_dt,
  * `pick` (the errors it is the cheapest case for), `why` (one reason a line) and `run_file`. */
 struct gx_table *gx_advise_table(const struct gx_advice *advice, FILE *errors);

@@ -8,12 +8,19 @@
 
 #include <gridcross/store.h>
 
+#include "../view/sheet.h"
 #include "where.h"
 
 int gx_command_no_memory(void)
 {
   fputs("gridcross: out of memory\n", stderr);
   return GX_EXIT_FAILED;
+}
+
+int gx_command_print(const struct gx_table *table)
+{
+  const struct gx_page page = gx_terminal_page(stdout);
+  return gx_sheet_print(table, &page, stdout);
 }
 
 struct gx_study *gx_command_read(const struct gx_options *options)

@@ -7,6 +7,7 @@
 #include <gridcross/study.h>
 
 #include "options.h"
+#include "terminal.h"
 
 extern const struct gx_command gx_command_run, gx_command_check, gx_command_init, gx_command_compare, gx_command_plot,
     gx_command_advise, gx_command_list, gx_command_paper, gx_command_spectrum, gx_command_balance;
@@ -42,6 +43,9 @@ int gx_command_plot_figure(const struct gx_options *options, size_t points, cons
 size_t gx_command_count(const struct gx_options *options, const char *name);
 /* Threads that --jobs asks for, or 0 after a message. */
 size_t gx_command_jobs(const struct gx_options *options);
+
+/* A table for people, as wide as the terminal. Returns 0, or -1 when memory runs out. */
+int gx_command_print(const struct gx_table *table);
 
 /* Exit code after saying that memory ran out. */
 int gx_command_no_memory(void);

@@ -23,7 +23,8 @@ static int show(const struct gx_options *options, const struct gx_advice *advice
 {
   bool csv = gx_options_value(options, "csv"), json = gx_options_value(options, "json");
   if (gx_options_value(options, "yaml")) return gx_advise_write(advice, stdout, stderr) ? GX_EXIT_USAGE : GX_EXIT_DONE;
-  if (!csv && !json) return gx_advise_print(advice, stdout, stderr) ? GX_EXIT_USAGE : GX_EXIT_DONE;
+  const struct gx_page page = gx_terminal_page(stdout);
+  if (!csv && !json) return gx_advise_print(advice, &page, stdout, stderr) ? GX_EXIT_USAGE : GX_EXIT_DONE;
   struct gx_table *table = gx_advise_table(advice, stderr);
   if (!table) return GX_EXIT_USAGE;
   if (csv)

@@ -25,7 +25,7 @@ static int print_sheet(const struct gx_table *table)
   struct gx_table *sheet = gx_table_create(advice, table->rows);
   int failed = !sheet;
   for (size_t c = 0; c < advice && !failed; c++) failed = gx_table_copy(sheet, c, table, c);
-  if (!failed) failed = gx_sheet_print(sheet, stdout);
+  if (!failed) failed = gx_command_print(sheet);
   for (size_t r = 0; r < table->rows && !failed; r++) {
     const char *gap = "\n";
     for (size_t c = 0; strcmp(table->column[c].name, "mesh.cells") != 0; c++, gap = ", ") {

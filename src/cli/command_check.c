@@ -110,7 +110,7 @@ static int run(const struct gx_options *options)
   if (!study) return GX_EXIT_USAGE;
   struct totals totals = {0};
   struct gx_table *table = plan_table(study, &totals);
-  int failed = !table || gx_sheet_print(table, stdout);
+  int failed = !table || gx_command_print(table);
   if (!failed) print_totals(study, &totals);
   gx_table_free(table);
   gx_runfile_free(study);

@@ -20,7 +20,8 @@ static const struct gx_option option[] = {
 static int show(const struct gx_options *options, const struct gx_comparison *comparison)
 {
   bool csv = gx_options_value(options, "csv"), json = gx_options_value(options, "json");
-  if (!csv && !json) return gx_compare_print(comparison, stdout, stderr) ? GX_EXIT_USAGE : GX_EXIT_DONE;
+  const struct gx_page page = gx_terminal_page(stdout);
+  if (!csv && !json) return gx_compare_print(comparison, &page, stdout, stderr) ? GX_EXIT_USAGE : GX_EXIT_DONE;
   struct gx_table *table = gx_compare_table(comparison, stderr);
   if (!table) return GX_EXIT_USAGE;
   if (csv)

@@ -248,7 +248,7 @@ static int print_item(const struct gx_paper_item *item, const char *title, const
   struct gx_table *sheet = brief(item, table, reason);
   if (!sheet) return gx_command_no_memory();
   printf("%s/%s  %s\n", item->paper, item->item, title);
-  int failed = gx_sheet_print(sheet, stdout);
+  int failed = gx_command_print(sheet);
   for (size_t r = 0; r < table->rows; r++)
     if (note_of(table, reason, r) > notes) printf("  %zu: %s\n", ++notes, gx_table_get(table, r, reason).text);
   putchar('\n');

@@ -132,7 +132,7 @@ static int print_table(const struct gx_options *options, const struct gx_study *
     gx_json_write(table, stdout);
   } else if (!failed) {
     brief = summary(table, timing);
-    failed = !brief || gx_sheet_print(brief, stdout);
+    failed = !brief || gx_command_print(brief);
     if (!failed) print_budgets(study, results);
   }
   gx_table_free(brief);

@@ -114,7 +114,7 @@ static int print_csv(const struct request *request)
 /* Takes the table. */
 static int print_sheet(struct gx_table *table)
 {
-  int failed = !table || gx_sheet_print(table, stdout);
+  int failed = !table || gx_command_print(table);
   gx_table_free(table);
   return failed ? gx_command_no_memory() : GX_EXIT_DONE;
 }

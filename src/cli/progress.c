@@ -67,7 +67,7 @@ void gx_progress_done(void *context, size_t done, size_t total)
 
 void gx_progress_end(struct gx_progress_line *line)
 {
-  if (line->quiet || !line->terminal) return;
+  if (!line->terminal || line->shown == line->start) return; /* nothing was shown */
   fputs("\r\033[K", stderr);
   fflush(stderr);
 }

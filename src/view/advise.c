@@ -173,7 +173,7 @@ static int print_pick(const struct ground *ground, double bound, FILE *out)
   return why ? 0 : -1;
 }
 
-int gx_advise_print(const struct gx_advice *advice, FILE *out, FILE *errors)
+int gx_advise_print(const struct gx_advice *advice, const struct gx_page *page, FILE *out, FILE *errors)
 {
   struct ground ground;
   int failed = ground_find(&ground, advice, errors);
@@ -182,7 +182,7 @@ int gx_advise_print(const struct gx_advice *advice, FILE *out, FILE *errors)
   if (!failed) {
     fprintf(out, "front: %zu of %zu cases%s\n", ground.front.members, ground.table->rows,
             sheet->columns > ground.axes + 3 ? "; x: times its cost, the cheapest case of each space with no greater error" : "");
-    if (ground.front.members) failed = putc('\n', out) == EOF || gx_sheet_print(sheet, out);
+    if (ground.front.members) failed = putc('\n', out) == EOF || gx_sheet_print(sheet, page, out);
     for (size_t b = 0; b < advice->bounds && !failed; b++) failed = print_pick(&ground, advice->bound[b], out);
     if (failed) no_memory(errors);
   }

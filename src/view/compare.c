@@ -12,12 +12,15 @@
 #include "sheet.h"
 
 enum { PAGE = 100, GAP = 3, ORDER = 8 };
+static const char bold[] = "\033[1m", plain[] = "\033[0m";
 
 /* What one value of a pivot looks like. */
 struct layout {
   const struct gx_pivot *pivot;
   size_t v;
   bool ordered;
+  bool marked;     /* the best of some row is */
+  bool attributes; /* by them, else by an asterisk */
   int row_width, value_width, order_width, group_width;
 };
 
@@ -53,15 +56,45 @@ static const char *order_text(const struct layout *at, size_t row, size_t column
   return text;
 }
 
+/* The least absolute value of a row, where that is best and there is a choice; NaN: none. */
+static double best_of(const struct gx_pivot *pivot, size_t v, size_t row)
+{
+  double best = NAN;
+  size_t choices = 0;
+  if (!gx_sheet_least_is_best(pivot->table->column[pivot->value[v]].name)) return NAN;
+  for (size_t c = 0; c < pivot->columns; c++) {
+    long cell = pivot->cell[row * pivot->columns + c];
+    double value = gx_pivot_ok(pivot, cell, pivot->value[v]) ? fabs(gx_pivot_number(pivot, cell, pivot->value[v])) : NAN;
+    if (!isnan(value)) choices++;
+    best = fmin(best, value);
+  }
+  return choices > 1 ? best : NAN;
+}
+
+static bool is_best(const struct layout *at, size_t row, size_t column)
+{
+  const struct gx_pivot *pivot = at->pivot;
+  long cell = pivot->cell[row * pivot->columns + column];
+  if (!at->marked || !gx_pivot_ok(pivot, cell, pivot->value[at->v])) return false;
+  return fabs(gx_pivot_number(pivot, cell, pivot->value[at->v])) == best_of(pivot, at->v, row);
+}
+
+/* After the value, where the order or the next column stands apart from it. */
+static int mark_width(const struct layout *at)
+{
+  return at->marked && !at->attributes;
+}
+
 static void widen(int *width, const char *text)
 {
   int w = gx_sheet_width(text);
   if (w > *width) *width = w;
 }
 
-static struct layout measure(const struct gx_pivot *pivot, size_t v)
+static struct layout measure(const struct gx_pivot *pivot, size_t v, const struct gx_page *page)
 {
-  struct layout at = {.pivot = pivot, .v = v, .ordered = gx_pivot_ordered(pivot, v)};
+  struct layout at = {.pivot = pivot, .v = v, .ordered = gx_pivot_ordered(pivot, v), .attributes = page->attributes};
+  for (size_t r = 0; r < pivot->rows && !at.marked; r++) at.marked = !isnan(best_of(pivot, v, r));
   char buffer[GX_NUMBER_LENGTH], label[GX_SHEET_LABEL];
   widen(&at.row_width, pivot->table->column[pivot->row_axis].name);
   if (at.ordered) at.order_width = (int)strlen("order");
@@ -72,6 +105,7 @@ static struct layout measure(const struct gx_pivot *pivot, size_t v)
       if (at.ordered) widen(&at.order_width, order_text(&at, r, c, label));
     }
   }
+  at.value_width += mark_width(&at);
   at.group_width = at.value_width + (at.ordered ? 1 + at.order_width : 0);
   for (size_t a = 0; a < pivot->axes; a++)
     for (size_t c = 0; c < pivot->columns; c++) widen(&at.group_width, axis_label(pivot, a, c, label));
@@ -120,6 +154,25 @@ static void print_right(const char *text, int width, int *owed, FILE *out)
   *owed = 0;
 }
 
+static void print_cell(const struct layout *at, size_t row, size_t column, int *owed, FILE *out)
+{
+  char buffer[GX_NUMBER_LENGTH];
+  const char *text = cell_text(at, row, column, buffer);
+  bool best = is_best(at, row, column);
+  int mark = mark_width(at), width = GAP + at->value_width - mark;
+  if (best && at->attributes) {
+    *owed += width - gx_sheet_width(text);
+    fprintf(out, "%*s%s%s%s", *owed, "", bold, text, plain);
+    *owed = 0;
+    return;
+  }
+  print_right(text, width, owed, out);
+  if (best)
+    putc('*', out);
+  else
+    *owed += mark;
+}
+
 static void print_block(const struct layout *at, size_t from, size_t to, FILE *out)
 {
   const struct gx_pivot *pivot = at->pivot;
@@ -141,7 +194,7 @@ static void print_block(const struct layout *at, size_t from, size_t to, FILE *o
     gx_sheet_pad(row_label(pivot, r, buffer), at->row_width, right, out);
     owed = 0;
     for (size_t c = from; c < to; c++) {
-      print_right(cell_text(at, r, c, buffer), GAP + at->value_width, &owed, out);
+      print_cell(at, r, c, &owed, out);
       if (at->ordered) print_right(order_text(at, r, c, order), 1 + at->order_width, &owed, out);
     }
     putc('\n', out);
@@ -177,22 +230,29 @@ static bool is_empty(const struct gx_pivot *pivot, size_t v)
   return ok;
 }
 
-int gx_compare_print(const struct gx_comparison *comparison, FILE *out, FILE *errors)
+static void print_value(const struct gx_pivot *pivot, size_t v, const struct gx_page *page, FILE *out)
+{
+  const struct gx_column *column = &pivot->table->column[pivot->value[v]];
+  struct layout at = measure(pivot, v, page);
+  int fit = ((page->width ? page->width : PAGE) - at.row_width) / (GAP + at.group_width);
+  fprintf(out, v ? "\n%s" : "%s", column->name);
+  if (*column->unit) fprintf(out, " [%s]", column->unit);
+  if (at.marked && at.attributes) fprintf(out, ", the least of each row %sbold%s", bold, plain);
+  fputs(at.marked && !at.attributes ? ", * the least of its row\n" : "\n", out);
+  for (size_t from = 0, to; from < pivot->columns; from = to) {
+    to = block_end(pivot, from, fit > 0 ? (size_t)fit : 1);
+    putc('\n', out);
+    print_block(&at, from, to, out);
+  }
+}
+
+int gx_compare_print(const struct gx_comparison *comparison, const struct gx_page *page, FILE *out, FILE *errors)
 {
   struct gx_pivot *pivot = gx_pivot_create(comparison, errors);
   if (!pivot) return -1;
   for (size_t v = 0; v < pivot->values; v++) {
-    const struct gx_column *column = &pivot->table->column[pivot->value[v]];
-    struct layout at = measure(pivot, v);
-    int fit = (PAGE - at.row_width) / (GAP + at.group_width);
-    fprintf(out, v ? "\n%s" : "%s", column->name);
-    fprintf(out, *column->unit ? " [%s]\n" : "\n", column->unit);
-    for (size_t from = 0, to; from < pivot->columns; from = to) {
-      to = block_end(pivot, from, fit > 0 ? (size_t)fit : 1);
-      putc('\n', out);
-      print_block(&at, from, to, out);
-    }
-    if (is_empty(pivot, v)) gx_left_out_suggest(pivot->table, column->name, errors);
+    print_value(pivot, v, page, out);
+    if (is_empty(pivot, v)) gx_left_out_suggest(pivot->table, pivot->table->column[pivot->value[v]].name, errors);
   }
   gx_pivot_free(pivot);
   return 0;

@@ -14,6 +14,11 @@ bool gx_sheet_error_like(const char *column)
   return false;
 }
 
+bool gx_sheet_least_is_best(const char *column)
+{
+  return gx_sheet_error_like(column) || !strcmp(column, "result.seconds") || !strcmp(column, "result.ns_per_particle_step");
+}
+
 const char *gx_sheet_leaf(const char *path)
 {
   const char *dot = strrchr(path, '.');
@@ -73,66 +78,4 @@ void gx_sheet_pad(const char *text, int width, bool right, FILE *out)
   if (right && fill > 0) fprintf(out, "%*s", fill, "");
   fputs(text, out);
   if (!right && fill > 0) fprintf(out, "%*s", fill, "");
-}
-
-/* Column names without the prefix that all results share. */
-static const char *heading(const char *name)
-{
-  return strncmp(name, "result.", 7) ? name : name + 7;
-}
-
-static int column_width(const struct gx_table *table, size_t c)
-{
-  const struct gx_column *column = &table->column[c];
-  char buffer[GX_NUMBER_LENGTH];
-  int width = 0;
-  for (size_t r = 0; r < table->rows; r++) {
-    struct gx_value value = gx_table_get(table, r, c);
-    int w = value.type == GX_NULL ? 0 : gx_sheet_width(gx_sheet_text(column->name, value, buffer));
-    if (w > width) width = w;
-  }
-  if (!width) return 0;
-  int name = gx_sheet_width(heading(column->name)), unit = gx_sheet_width(column->unit);
-  width = name > width ? name : width;
-  return unit > width ? unit : width;
-}
-
-enum { NAMES = -2, UNITS = -1 }; /* lines before row 0 */
-
-static void print_line(const struct gx_table *table, const int *width, long row, size_t last, FILE *out)
-{
-  const char *gap = "";
-  for (size_t c = 0; c <= last; c++) {
-    const struct gx_column *column = &table->column[c];
-    char buffer[GX_NUMBER_LENGTH];
-    bool right = column->type != GX_TEXT;
-    if (!width[c]) continue;
-    const char *text = row == NAMES   ? heading(column->name)
-                       : row == UNITS ? column->unit
-                                      : gx_sheet_text(column->name, gx_table_get(table, (size_t)row, c), buffer);
-    bool blank = c == last && !right && row >= 0 && gx_table_get(table, (size_t)row, c).type == GX_NULL;
-    if (blank) continue;
-    fputs(gap, out);
-    gx_sheet_pad(text, c == last && !right ? 0 : width[c], right, out);
-    gap = "  ";
-  }
-  putc('\n', out);
-}
-
-int gx_sheet_print(const struct gx_table *table, FILE *out)
-{
-  int *width = calloc(table->columns + 1, sizeof *width);
-  size_t last = 0;
-  bool units = false;
-  if (!width) return -1;
-  for (size_t c = 0; c < table->columns; c++) {
-    width[c] = column_width(table, c);
-    if (!width[c]) continue;
-    last = c;
-    units = units || *table->column[c].unit;
-  }
-  for (long row = NAMES; row < (long)table->rows; row++)
-    if (row != UNITS || units) print_line(table, width, row, last, out);
-  free(width);
-  return 0;
 }

@@ -77,7 +77,7 @@ static char *printed(const struct gx_advice *advice, int *failed, char **message
   char *text;
   size_t length, message_length;
   FILE *out = open_memstream(&text, &length), *errors = open_memstream(message, &message_length);
-  *failed = gx_advise_print(advice, out, errors);
+  *failed = gx_advise_print(advice, &(struct gx_page){0}, out, errors);
   fclose(out);
   fclose(errors);
   return text;

@@ -55,7 +55,7 @@ static char *printed(const struct gx_comparison *comparison, int *failed, char *
   char *text;
   size_t length, message_length;
   FILE *out = open_memstream(&text, &length), *errors = open_memstream(message, &message_length);
-  *failed = gx_compare_print(comparison, out, errors);
+  *failed = gx_compare_print(comparison, &(struct gx_page){0}, out, errors);
   fclose(out);
   fclose(errors);
   return text;
@@ -72,14 +72,14 @@ static void a_table_reads_as_expected(void **state)
   char *message, *text = printed(&comparison, &failed, &message);
   assert_string_equal(message, "");
   assert_int_equal(failed, 0);
-  assert_string_equal(text, "result.displacement.max.rms [m]\n"
+  assert_string_equal(text, "result.displacement.max.rms [m], * the least of its row\n"
                             "\n"
-                            "             standard         moving-mesh\n"
-                            "mesh.cells            order            order\n"
-                            "         8    1.00e-2          2.70e-3\n"
-                            "        16    2.50e-3  2.00\n"
-                            "        24                     1.00e-4  3.00\n"
-                            "        48   unstable          1.00e-4  0.00\n"
+                            "             standard          moving-mesh\n"
+                            "mesh.cells             order             order\n"
+                            "         8    1.00e-2           2.70e-3*\n"
+                            "        16    2.50e-3   2.00\n"
+                            "        24                      1.00e-4   3.00\n"
+                            "        48   unstable           1.00e-4   0.00\n"
                             "\n"
                             "result.crossings\n"
                             "\n"
@@ -90,6 +90,38 @@ static void a_table_reads_as_expected(void **state)
                             "        48      unstable             0\n");
   free(text);
   free(message);
+  gx_table_free(table);
+}
+
+/* On a terminal the mark takes no room; a page that holds one column puts them below each other. */
+static void the_best_is_bold_on_a_narrow_terminal(void **state)
+{
+  (void)state;
+  struct gx_table *table = make(6, refinement);
+  const struct gx_table *const tables[] = {table};
+  const char *const name[] = {"s"};
+  struct gx_comparison comparison = {.studies = 1, .table = tables, .name = name};
+  char *text;
+  size_t length;
+  FILE *out = open_memstream(&text, &length);
+  assert_int_equal(gx_compare_print(&comparison, &(struct gx_page){.width = 30, .attributes = true}, out, stderr), 0);
+  fclose(out);
+  assert_string_equal(text, "result.displacement.max.rms [m], the least of each row \033[1mbold\033[0m\n"
+                            "\n"
+                            "             standard\n"
+                            "mesh.cells            order\n"
+                            "         8    1.00e-2\n"
+                            "        16    2.50e-3  2.00\n"
+                            "        24\n"
+                            "        48   unstable\n"
+                            "\n"
+                            "             moving-mesh\n"
+                            "mesh.cells            order\n"
+                            "         8    \033[1m2.70e-3\033[0m\n"
+                            "        16\n"
+                            "        24    1.00e-4  3.00\n"
+                            "        48    1.00e-4  0.00\n");
+  free(text);
   gx_table_free(table);
 }
 
@@ -206,8 +238,11 @@ static void wrong_names_are_answered(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_table_reads_as_expected), cmocka_unit_test(steps_in_time_refine_downwards),
-      cmocka_unit_test(text_rows_have_no_orders),  cmocka_unit_test(studies_join_and_are_told_apart_where_needed),
+      cmocka_unit_test(a_table_reads_as_expected),
+      cmocka_unit_test(the_best_is_bold_on_a_narrow_terminal),
+      cmocka_unit_test(steps_in_time_refine_downwards),
+      cmocka_unit_test(text_rows_have_no_orders),
+      cmocka_unit_test(studies_join_and_are_told_apart_where_needed),
       cmocka_unit_test(wrong_names_are_answered),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
