@@ -19,8 +19,7 @@ struct gx_plot {
   const char *const *directory;        /* [studies] where histories are read */
   const char *title;                   /* "": none */
   const char *x;                       /* lines: column, NULL: as the rows of gx_comparison */
-  const char *y;                       /* lines: column, NULL: result.displacement.max.rms; history: NULL: displacement.rms;
-                                        * spectrum: displacement, velocity or stress, NULL: displacement */
+  const char *y;                       /* what is drawn, see the kind's `y`; NULL: its default */
   size_t bys;
   const char *const *by; /* [bys] paths that lead the labels of lines; the other axes follow */
   size_t points;
@@ -34,16 +33,19 @@ enum gx_plot_status {
   GX_PLOT_REFUSED /* what is asked for is not there, or there is nothing to draw */
 };
 
-/* y against x, one line for each value of the other axes; cases that did not end ok are left out and counted in a note to
- * `errors`, where every message goes. */
-enum gx_plot_status gx_plot_lines(const struct gx_plot *plot, FILE *errors);
-/* The error y against the cost x (NULL: result.seconds) of every case that counts for an advice, a colour for each value of `by`
- * (none: method.space where it varies, else the first parameter that does), and the error-cost front as steps. */
-enum gx_plot_status gx_plot_front(const struct gx_plot *plot, FILE *errors);
-/* A history against time, one line for each case that ended ok. */
-enum gx_plot_status gx_plot_history(const struct gx_plot *plot, FILE *errors);
-/* The error's last spectrum by wavenumber, both axes logarithmic, the grid's Nyquist wavenumber marked: one line for each case
- * that ended ok. */
-enum gx_plot_status gx_plot_spectrum(const struct gx_plot *plot, FILE *errors);
+/* A kind of figure. Cases that cannot be drawn are counted in a note, in the figure and to `errors`, where every message goes. */
+struct gx_plot_kind {
+  const char *name;
+  const char *help;
+  const char *y;      /* what --y may name, the default first */
+  const char *across; /* what it is drawn against, in words; NULL: --x names it */
+  const char *example;
+  enum gx_plot_status (*draw)(const struct gx_plot *plot, FILE *errors);
+  enum gx_plot_status (*front)(const struct gx_plot *plot, FILE *errors); /* the same with --front; NULL: it has none */
+};
+
+/* All kinds, NULL-ended; the first is the default. */
+extern const struct gx_plot_kind *const gx_plot_family[];
+const struct gx_plot_kind *gx_plot_find(const char *name); /* NULL: no such kind */
 
 #endif

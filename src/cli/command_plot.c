@@ -14,9 +14,7 @@
 static const struct gx_option option[] = {
     {'o', "output", "FIGURE", "the figure, ending in .svg, .png or .pdf; FIGURE.gp and FIGURE.csv stay beside it"},
     {0, "x", "COLUMN", "lines: parameter or result across; default: mesh.cells where it varies, else time.dt, time.cfl, ..."},
-    {0, "y", "COLUMN",
-     "lines: result.displacement.max.rms, ...; history: displacement.rms, energy.kinetic, ...; "
-     "spectrum: displacement, velocity, stress"},
+    {0, "y", "COLUMN", "what is drawn; each kind says below what there is, its default first"},
     {0, "by", "PATH",
      "one line a value, shown by its colour; as often as wanted; the other axes follow in the legend, but with --front"},
     {0, "front", NULL, "lines: error against cost of every case, result.seconds or --x, and the front of the cheapest"},
@@ -24,18 +22,16 @@ static const struct gx_option option[] = {
     {0},
 };
 
-static const struct kind {
-  const char *name;
-  enum gx_plot_status (*draw)(const struct gx_plot *plot, FILE *errors);
-} kinds[] = {{"lines", gx_plot_lines}, {"history", gx_plot_history}, {"spectrum", gx_plot_spectrum}};
-enum { KINDS = sizeof kinds / sizeof *kinds };
-
-/* The kind that the last operand names, NULL: it names a study. A study of that name is written ./lines. */
-static const struct kind *find_kind(const char *name)
+/* The kinds, for people. */
+static void print_kinds(FILE *out)
 {
-  for (int k = 0; k < KINDS; k++)
-    if (!strcmp(kinds[k].name, name)) return &kinds[k];
-  return NULL;
+  fputs("\nkinds, the first where none is named:\n", out);
+  for (const struct gx_plot_kind *const *k = gx_plot_family; *k; k++)
+    fprintf(out, "  %-10s%s\n%12s--y %s\n%12s%s\n", (*k)->name, (*k)->help, "", (*k)->y, "", (*k)->example);
+  fputs(
+      "\nWithout gnuplot the figure is missing and the exit code 1, but FIGURE.gp and FIGURE.csv are written: gnuplot FIGURE.gp\n"
+      "draws it elsewhere. Cases that failed are left out and counted in the figure.\n",
+      out);
 }
 
 /* A last operand that is no place at all was meant as a kind. */
@@ -44,14 +40,34 @@ static int check_kind(const char *name)
   struct stat status;
   struct gx_nearest near = {.word = name};
   if (!stat(name, &status) || strchr(name, '/')) return GX_EXIT_DONE;
-  for (int k = 0; k < KINDS; k++) gx_nearest_try(&near, kinds[k].name);
+  for (const struct gx_plot_kind *const *k = gx_plot_family; *k; k++) gx_nearest_try(&near, (*k)->name);
   fprintf(stderr, "gridcross plot: '%s' is neither a study nor a kind", name);
-  if (*near.best) fprintf(stderr, ": did you mean %s?", near.best);
-  fputs(*near.best ? "\n" : "; kinds are lines, history and spectrum\n", stderr);
+  if (*near.best) {
+    fprintf(stderr, ": did you mean %s?\n", near.best);
+    return GX_EXIT_USAGE;
+  }
+  fputs("; kinds are", stderr);
+  for (const struct gx_plot_kind *const *k = gx_plot_family; *k; k++)
+    fprintf(stderr, "%s %s", k == gx_plot_family ? "" : k[1] ? "," : " and", (*k)->name);
+  putc('\n', stderr);
   return GX_EXIT_USAGE;
 }
 
-static int plot(const struct gx_options *options, const struct kind *kind, const struct gx_command_studies *studies,
+/* Whether the kind can do what the options ask for. */
+static int check_options(const struct gx_options *options, const struct gx_plot_kind *kind)
+{
+  if (!gx_options_value(options, "output"))
+    fputs("gridcross plot: name the figure: -o FIGURE.svg, FIGURE.png or FIGURE.pdf\n", stderr);
+  else if (kind->across && gx_options_value(options, "x"))
+    fprintf(stderr, "gridcross plot: the kind %s is drawn against %s: leave out --x\n", kind->name, kind->across);
+  else if (!kind->front && gx_options_value(options, "front"))
+    fprintf(stderr, "gridcross plot: the kind %s has no front: leave out %s or --front\n", kind->name, kind->name);
+  else
+    return GX_EXIT_DONE;
+  return GX_EXIT_USAGE;
+}
+
+static int plot(const struct gx_options *options, const struct gx_plot_kind *kind, const struct gx_command_studies *studies,
                 const char **by, size_t points, const struct gx_plot_point *point)
 {
   char *title = studies->count == 1 ? gx_store_read_title(options->operand[0], stderr) : NULL;
@@ -70,7 +86,7 @@ static int plot(const struct gx_options *options, const struct kind *kind, const
       .point = point,
       .output = gx_options_value(options, "output"),
   };
-  enum gx_plot_status status = (gx_options_value(options, "front") ? gx_plot_front : kind->draw)(&figure, stderr);
+  enum gx_plot_status status = (gx_options_value(options, "front") ? kind->front : kind->draw)(&figure, stderr);
   free(title);
   return status == GX_PLOT_DONE ? GX_EXIT_DONE : status == GX_PLOT_FAILED ? GX_EXIT_FAILED : GX_EXIT_USAGE;
 }
@@ -78,20 +94,9 @@ static int plot(const struct gx_options *options, const struct kind *kind, const
 int gx_command_plot_figure(const struct gx_options *options, size_t points, const struct gx_plot_point *point)
 {
   const char *last = options->operand[options->operands - 1];
-  const struct kind *kind = options->operands > 1 ? find_kind(last) : NULL;
-  if (!gx_options_value(options, "output")) {
-    fputs("gridcross plot: name the figure: -o FIGURE.svg, FIGURE.png or FIGURE.pdf\n", stderr);
-    return GX_EXIT_USAGE;
-  }
-  if (kind && kind->draw != gx_plot_lines && gx_options_value(options, "x")) {
-    fprintf(stderr, "gridcross plot: a %s is drawn against %s: leave out --x\n", kind->name,
-            kind->draw == gx_plot_history ? "time" : "wavenumber");
-    return GX_EXIT_USAGE;
-  }
-  if (kind && kind->draw != gx_plot_lines && gx_options_value(options, "front")) {
-    fprintf(stderr, "gridcross plot: a %s has no front: leave out %s or --front\n", kind->name, kind->name);
-    return GX_EXIT_USAGE;
-  }
+  const struct gx_plot_kind *kind =
+      options->operands > 1 ? gx_plot_find(last) : NULL; /* a study of that name is written ./lines */
+  if (check_options(options, kind ? kind : gx_plot_family[0])) return GX_EXIT_USAGE;
   if (options->operands > 1 && !kind && check_kind(last)) return GX_EXIT_USAGE;
   struct gx_command_studies studies;
   int code = gx_command_studies_read(&studies, options, options->operands - !!kind);
@@ -99,7 +104,7 @@ int gx_command_plot_figure(const struct gx_options *options, size_t points, cons
   if (!by)
     code = gx_command_no_memory();
   else if (!code)
-    code = plot(options, kind ? kind : &kinds[0], &studies, by, points, point);
+    code = plot(options, kind ? kind : gx_plot_family[0], &studies, by, points, point);
   gx_command_studies_free(&studies);
   free(by);
   return code;
@@ -112,10 +117,11 @@ static int run(const struct gx_options *options)
 
 const struct gx_command gx_command_plot = {
     .name = "plot",
-    .operands = "DIR... [lines|history|spectrum]",
+    .operands = "DIR... [KIND]",
     .least = 1,
     .most = -1,
-    .help = "Draw a figure of studies by gnuplot: errors and other results as lines, histories, or errors by wavenumber.",
+    .help = "Draw a figure of studies by gnuplot: errors and other results as lines, histories, errors by wavenumber.",
     .option = option,
+    .more = print_kinds,
     .run = run,
 };

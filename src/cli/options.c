@@ -149,6 +149,7 @@ void gx_options_help(const struct gx_command *command, FILE *out)
           command->operands, command->help);
   for (const struct gx_option *o = command->option; o->name; o++) print_option(o, out);
   print_option(&help_option, out);
+  if (command->more) command->more(out);
   if (command->example) fprintf(out, "\nexample: %s\n", command->example);
 }
 

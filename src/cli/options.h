@@ -25,6 +25,7 @@ struct gx_command {
   const char *help;
   const char *example;            /* NULL: none */
   const struct gx_option *option; /* ended by {0} */
+  void (*more)(FILE *out);        /* what help says beyond them; NULL: nothing */
   int (*run)(const struct gx_options *options);
 };
 

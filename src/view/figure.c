@@ -11,6 +11,7 @@
 #include <gridcross/store.h>
 
 #include "gnuplot.h"
+#include "script.h"
 
 struct files {
   char *folder;                 /* with a slash at its end; "" where none is named */
@@ -66,7 +67,7 @@ static enum gx_plot_status files_check(const struct files *files, FILE *errors)
 {
   char line[128] = "";
   FILE *script = fopen(files->script, "rb");
-  bool ours = script && fgets(line, sizeof line, script) && !strcmp(line, gx_gnuplot_mark);
+  bool ours = script && fgets(line, sizeof line, script) && !strcmp(line, gx_script_mark);
   const char *foreign = script && !ours ? files->script : !ours && !access(files->data, F_OK) ? files->data : NULL;
   if (script) fclose(script);
   if (!foreign) return GX_PLOT_DONE;
@@ -95,7 +96,7 @@ static int files_write(const struct files *files, const struct gx_figure *figure
 {
   FILE *out = start(files->script, errors);
   if (!out) return -1;
-  gx_gnuplot_write(figure, files->stem, files->ending, out);
+  gx_script_write(figure, files->stem, files->ending, out);
   if (finish(out, files->script, errors) || !(out = start(files->data, errors))) return -1;
   gx_csv_write(figure->data, out);
   return finish(out, files->data, errors);
@@ -112,6 +113,9 @@ enum gx_plot_status gx_figure_draw(const struct gx_figure *figure, const char *o
     if (gx_gnuplot_run(*files.folder ? files.folder : ".", files.beside, errors)) {
       fprintf(errors, "; %s and %s are written\n", files.script, files.data);
       status = GX_PLOT_FAILED;
+    } else if (!strcmp(files.ending, "pdf") && gx_gnuplot_undate(files.image)) {
+      fprintf(errors, "gridcross: cannot write %s: %s\n", files.image, strerror(errno));
+      status = GX_PLOT_FAILED;
     }
   }
   files_free(&files);
@@ -123,22 +127,29 @@ double gx_figure_number(const struct gx_figure *figure, size_t row, size_t colum
   return gx_value_number(gx_table_get(figure->data, row, column));
 }
 
-int gx_figure_start(struct gx_figure *figure, size_t lines, size_t points, const struct gx_column *x, const struct gx_column *y)
+static void one_line(char *text) /* gnuplot reads the data by lines */
+{
+  for (char *c = text; *c; c++)
+    if ((unsigned char)*c < ' ') *c = ' ';
+}
+
+int gx_figure_start(struct gx_figure *figure, size_t lines, size_t points, const struct gx_column *x, const struct gx_column *y,
+                    const struct gx_column *value)
 {
   if (!(figure->line = calloc(lines + 1, sizeof *figure->line))) return -1;
-  if (!(figure->data = gx_table_create(GX_FIGURE_COLUMNS, points))) return -1;
+  if (!(figure->data = gx_table_create(value ? GX_FIGURE_VALUE + 1 : GX_FIGURE_VALUE, points))) return -1;
   figure->data->rows = 0; /* in use */
   return gx_table_column(figure->data, GX_FIGURE_LINE, "line", "", GX_INTEGER) ||
          gx_table_column(figure->data, GX_FIGURE_X, x->name, x->unit, x->type) ||
          gx_table_column(figure->data, GX_FIGURE_Y, y->name, y->unit, y->type) ||
-         gx_table_column(figure->data, GX_FIGURE_LABEL, "label", "", GX_TEXT);
+         gx_table_column(figure->data, GX_FIGURE_LABEL, "label", "", GX_TEXT) ||
+         (value && gx_table_column(figure->data, GX_FIGURE_VALUE, value->name, value->unit, value->type));
 }
 
 struct gx_figure_line *gx_figure_begin(struct gx_figure *figure, char *label)
 {
   if (!label) return NULL;
-  for (char *c = label; *c; c++) /* gnuplot reads the data by lines */
-    if ((unsigned char)*c < ' ') *c = ' ';
+  one_line(label);
   struct gx_figure_line *line = &figure->line[figure->lines++];
   *line = (struct gx_figure_line){.label = label, .first = figure->data->rows, .order = NAN, .nyquist = NAN};
   return line;
@@ -152,6 +163,16 @@ int gx_figure_add(struct gx_figure *figure, struct gx_value x, struct gx_value y
   return gx_table_set(figure->data, row, GX_FIGURE_LINE, (struct gx_value){.type = GX_INTEGER, .integer = (long)figure->lines}) ||
          gx_table_set(figure->data, row, GX_FIGURE_X, x) || gx_table_set(figure->data, row, GX_FIGURE_Y, y) ||
          gx_table_set(figure->data, row, GX_FIGURE_LABEL, (struct gx_value){.type = GX_TEXT, .text = line->label});
+}
+
+int gx_figure_name(struct gx_figure *figure, const char *label)
+{
+  return gx_table_set(figure->data, figure->data->rows - 1, GX_FIGURE_LABEL, (struct gx_value){.type = GX_TEXT, .text = label});
+}
+
+int gx_figure_colour(struct gx_figure *figure, double value)
+{
+  return gx_table_set(figure->data, figure->data->rows - 1, GX_FIGURE_VALUE, gx_value_from(value));
 }
 
 void gx_figure_end(struct gx_figure *figure)
@@ -178,6 +199,9 @@ struct gx_figure_axis gx_figure_range(const struct gx_figure *figure, size_t col
 void gx_figure_free(struct gx_figure *figure)
 {
   for (size_t i = 0; i < figure->lines; i++) free(figure->line[i].label);
+  for (size_t i = 0; figure->panel && i < figure->panels; i++) free(figure->panel[i]);
   free(figure->line);
+  free(figure->panel);
+  free(figure->note);
   gx_table_free(figure->data);
 }

@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* gnuplot's language, and gnuplot itself. */
+/* gnuplot itself, and its texts. */
 #ifndef GRIDCROSS_VIEW_GNUPLOT_H
 #define GRIDCROSS_VIEW_GNUPLOT_H
 
-#include "figure.h"
+#include <stddef.h>
+#include <stdio.h>
 
-/* The first line of every script of ours: other files are not overwritten. */
-extern const char gx_gnuplot_mark[];
-
-/* The script that draws the figure. stem: name of the figure without folder and ending (svg, png or pdf). */
-void gx_gnuplot_write(const struct gx_figure *figure, const char *stem, const char *ending, FILE *out);
+/* Part of a text in double quotes, byte for byte. */
+void gx_gnuplot_quote(const char *text, size_t length, FILE *out);
+/* The same for text to be seen: a line break would break the line, and what is no character would spoil the image. */
+void gx_gnuplot_text(const char *text, FILE *out);
 /* Has gnuplot run a script in its folder. Returns 0, or -1 after a message without its line end. */
 int gx_gnuplot_run(const char *folder, const char *script, FILE *errors);
+/* Blanks the date in a PDF, so that equal figures have equal bytes. Returns 0, or -1 when the file cannot be changed. */
+int gx_gnuplot_undate(const char *pdf);
 
 #endif

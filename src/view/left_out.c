@@ -2,6 +2,7 @@
 /* Counts cases by how they ended. */
 #include "left_out.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 bool gx_left_out_try(struct gx_left_out *left_out, const struct gx_table *table, size_t row)
@@ -39,18 +40,46 @@ void gx_left_out_suggest(const struct gx_table *table, const char *column, FILE 
   fputs(shown ? "\n" : "; run again with output.measures: all\n", errors);
 }
 
-void gx_left_out_tell(const struct gx_left_out *left_out, FILE *errors)
+/* "3 tangled, 1 unstable" */
+static void list_ended(const struct gx_left_out *left_out, FILE *out)
 {
-  size_t count = 0;
   const char *gap = "";
-  for (int s = 0; s < GX_STATUSES; s++) count += left_out->ended[s];
-  if (count) fprintf(errors, "note: %zu case%s left out: ", count, count == 1 ? " is" : "s are");
   for (int s = 0; s < GX_STATUSES; s++) {
     if (!left_out->ended[s]) continue;
-    fprintf(errors, "%s%zu %s", gap, left_out->ended[s], gx_status_name(s));
+    fprintf(out, "%s%zu %s", gap, left_out->ended[s], gx_status_name(s));
     gap = ", ";
   }
-  if (count) putc('\n', errors);
+}
+
+static size_t count_ended(const struct gx_left_out *left_out)
+{
+  size_t count = 0;
+  for (int s = 0; s < GX_STATUSES; s++) count += left_out->ended[s];
+  return count;
+}
+
+void gx_left_out_tell(const struct gx_left_out *left_out, FILE *errors)
+{
+  size_t count = count_ended(left_out);
+  if (count) {
+    fprintf(errors, "note: %zu case%s left out: ", count, count == 1 ? " is" : "s are");
+    list_ended(left_out, errors);
+    putc('\n', errors);
+  }
   if (left_out->empty)
     fprintf(errors, "note: %zu case%s no value there\n", left_out->empty, left_out->empty == 1 ? " has" : "s have");
+}
+
+char *gx_left_out_text(const struct gx_left_out *left_out)
+{
+  char *text = NULL;
+  size_t length, count = count_ended(left_out);
+  FILE *out = open_memstream(&text, &length);
+  if (!out) return NULL;
+  if (count || left_out->empty) fputs("left out: ", out);
+  list_ended(left_out, out);
+  if (left_out->empty) fprintf(out, "%s%zu without value", count ? ", " : "", left_out->empty);
+  if (!fclose(out)) return text;
+  free(text);
+  return NULL;
 }

@@ -19,6 +19,8 @@ struct gx_left_out {
 bool gx_left_out_try(struct gx_left_out *left_out, const struct gx_table *table, size_t row);
 /* One line each for cases that did not end ok and for empty ones. */
 void gx_left_out_tell(const struct gx_left_out *left_out, FILE *errors);
+/* The same in one short line, "" when there are none; owned by the caller, NULL when memory runs out. */
+char *gx_left_out_text(const struct gx_left_out *left_out);
 /* Says that no case has a value in the column, and which results have some. */
 void gx_left_out_suggest(const struct gx_table *table, const char *column, FILE *errors);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The error-cost front as a figure: every case a point, and below them the steps of the cheapest. */
-#include <gridcross/plot.h>
+#include "plot_front.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -103,7 +103,7 @@ static int fill(struct sketch *sketch)
 {
   const struct gx_front *front = &sketch->front;
   const struct gx_column *x = &sketch->table->column[front->cost], *y = &sketch->table->column[front->error];
-  int failed = gx_figure_start(&sketch->figure, sketch->groups + 1, front->cases + front->members, x, y);
+  int failed = gx_figure_start(&sketch->figure, sketch->groups + 1, front->cases + front->members, x, y, NULL);
   for (size_t g = 0; g < sketch->groups && !failed; g++) failed = add_group(sketch, g);
   struct gx_figure_line *line = failed ? NULL : gx_figure_begin(&sketch->figure, strdup("front"));
   if (!line) return -1;
@@ -128,7 +128,7 @@ static enum gx_plot_status draw(struct sketch *sketch, FILE *errors)
   return gx_figure_draw(figure, sketch->plot->output, errors);
 }
 
-enum gx_plot_status gx_plot_front(const struct gx_plot *plot, FILE *errors)
+enum gx_plot_status gx_plot_front_draw(const struct gx_plot *plot, FILE *errors)
 {
   struct sketch sketch = {.plot = plot};
   const char *error = plot->y ? plot->y : "result.displacement.max.rms", *cost = plot->x ? plot->x : "result.seconds";

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What figures of one line a case draw. */
-#ifndef GRIDCROSS_VIEW_CURVE_H
-#define GRIDCROSS_VIEW_CURVE_H
+#ifndef GRIDCROSS_VIEW_CURVES_H
+#define GRIDCROSS_VIEW_CURVES_H
 
 #include <stdbool.h>
+#include <stdio.h>
 
 #include <gridcross/plot.h>
 
@@ -19,9 +20,6 @@ struct gx_curves {
   struct gx_curve (*read)(const struct gx_plot *plot, size_t study, size_t row, const char *name, FILE *errors);
 };
 
-extern const struct gx_curves gx_curve_history, gx_curve_spectrum;
-
-/* Errors spread over orders of magnitude; energies swing. */
-bool gx_curve_is_error(const char *name);
+enum gx_plot_status gx_curves_plot(const struct gx_plot *plot, const struct gx_curves *kind, FILE *errors);
 
 #endif

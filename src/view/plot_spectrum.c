@@ -1,19 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reads what figures of one line a case draw: histories and spectra. */
-#include "curve.h"
-
+/* The error's last spectrum by wavenumber, one line a case, the grid's Nyquist wavenumber marked. */
 #include <math.h>
 #include <string.h>
 
 #include <gridcross/spectra.h>
 #include <gridcross/store.h>
 
-static struct gx_curve read_history(const struct gx_plot *plot, size_t study, size_t row, const char *name, FILE *errors)
-{
-  const struct gx_table *table = plot->table[study];
-  const char *id = gx_table_get(table, row, (size_t)gx_table_find(table, "case")).text;
-  return (struct gx_curve){gx_store_read_history(plot->directory[study], id, name, errors), NAN};
-}
+#include "curves.h"
 
 static struct gx_curve read_spectrum(const struct gx_plot *plot, size_t study, size_t row, const char *name, FILE *errors)
 {
@@ -32,12 +25,17 @@ static struct gx_curve read_spectrum(const struct gx_plot *plot, size_t study, s
   return curve;
 }
 
-bool gx_curve_is_error(const char *name)
+static enum gx_plot_status draw(const struct gx_plot *plot, FILE *errors)
 {
-  for (int q = 0; q < GX_QUANTITIES; q++)
-    if (!strncmp(name, gx_measure_quantity[q].name, strlen(gx_measure_quantity[q].name))) return true;
-  return false;
+  static const struct gx_curves curves = {.name = "displacement", .read = read_spectrum};
+  return gx_curves_plot(plot, &curves, errors);
 }
 
-const struct gx_curves gx_curve_history = {.name = "displacement.rms", .in_time = true, .read = read_history};
-const struct gx_curves gx_curve_spectrum = {.name = "displacement", .read = read_spectrum};
+const struct gx_plot_kind gx_plot_spectrum = {
+    .name = "spectrum",
+    .help = "the error at the end by wavenumber, one line a case; of studies run with output.spectra",
+    .y = "displacement, velocity or stress",
+    .across = "wavenumber",
+    .example = "gridcross plot FILE.study spectrum --y stress --where mesh.cells=32 -o spectrum.svg",
+    .draw = draw,
+};
