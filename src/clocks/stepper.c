@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../core/large.h"
 #include "../core/vector.h"
 
 /* First weights, projection and drift; six rows a stage; the end. */
@@ -62,7 +63,7 @@ static int allocate_stages(struct gx_stepper *stepper)
   stepper->space->kind->state(stepper->space, state);
   size_t total = 0;
   for (int i = 0; i < state->count; i++) total += state->length[i];
-  stepper->block = malloc(total * (size_t)(stages + 1) * sizeof(double));
+  stepper->block = gx_large_zeros(total * (size_t)(stages + 1) * sizeof(double));
   if (!stepper->block) return -1;
   double *at = stepper->block;
   for (int i = 0; i < state->count; i++, at += state->length[i - 1]) stepper->start[i] = at;

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "large.h"
+
 enum { FIRST_BLOCK = 1 << 12, LARGEST_BLOCK = 1 << 16 }; /* each twice the one before: tiny cases take little */
 
 struct gx_arena_block {
@@ -24,7 +26,7 @@ void *gx_arena_take(struct gx_arena *arena, size_t bytes)
   if (!block || block->room - block->used < bytes) {
     size_t room = !block ? FIRST_BLOCK : block->room < LARGEST_BLOCK ? 2 * block->room : LARGEST_BLOCK;
     if (room < bytes) room = bytes;
-    block = calloc(1, sizeof *block + room);
+    block = gx_large_zeros(sizeof *block + room);
     if (!block) return NULL;
     *block = (struct gx_arena_block){.older = arena->block, .room = room};
     arena->block = block;

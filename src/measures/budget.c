@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../core/large.h"
 #include "../core/tensor.h"
 #include "../core/vector.h"
 #include "jump.h"
@@ -99,7 +100,7 @@ static enum gx_status allocate(struct gx_budget *budget, const struct gx_space *
   if (!budget->particles) return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the budget");
   GX_TRY(gx_integral_create(&budget->integral, space, &budget->options, outcome));
   budget->integral->mesh->space.outcome = &budget->outcome;
-  budget->block = malloc(place_arrays(budget, NULL) * sizeof(double));
+  budget->block = gx_large_zeros(place_arrays(budget, NULL) * sizeof(double));
   budget->truncation = gx_truncation_create(budget->integral);
   if (!budget->block || !budget->truncation) return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the budget");
   place_arrays(budget, budget->block);

@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../core/large.h"
+
 struct gx_jump *gx_jump_create(const struct gx_space *space, const int *cells)
 {
   struct gx_jump *jump = calloc(1, sizeof *jump);
@@ -15,7 +17,7 @@ struct gx_jump *gx_jump_create(const struct gx_space *space, const int *cells)
   const struct gx_particles *particles = space->particles;
   size_t n = particles->n, dim = (size_t)particles->dim;
   *jump = (struct gx_jump){.space = space, .cells = cells, .last = NAN, .estimate = NAN};
-  jump->block = calloc(2 * dim * n, sizeof(double));
+  jump->block = gx_large_zeros(2 * dim * n * sizeof(double));
   if (!jump->block) {
     free(jump);
     return NULL;

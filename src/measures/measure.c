@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "../core/kernel.h"
+#include "../core/large.h"
 #include "../core/vector.h"
 #include "errors.h"
 #include "jump.h"
@@ -49,7 +50,7 @@ struct gx_measure {
 
 static int take_room(const struct gx_measure *measure, struct vector_field *field)
 {
-  double *block = calloc((size_t)measure->dim * measure->n + 1, sizeof(double));
+  double *block = gx_large_zeros(((size_t)measure->dim * measure->n + 1) * sizeof(double));
   for (int d = 0; block && d < measure->dim; d++) field->component[d] = block + (size_t)d * measure->n;
   return block ? 0 : -1;
 }

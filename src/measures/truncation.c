@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../core/large.h"
 #include "../core/vector.h"
 
 struct vector_field {
@@ -27,7 +28,7 @@ struct gx_truncation *gx_truncation_create(struct gx_integral *integral)
 {
   struct gx_truncation *truncation = calloc(1, sizeof *truncation);
   size_t n = integral->points->n, dim = (size_t)integral->points->dim;
-  double *at = truncation ? malloc(7 * dim * n * sizeof *at) : NULL;
+  double *at = truncation ? gx_large_zeros(7 * dim * n * sizeof *at) : NULL;
   if (!at) {
     free(truncation);
     return NULL;

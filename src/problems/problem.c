@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "../core/family.h"
+#include "../core/large.h"
 #include "problem_family.h"
 
 #define GX_FAMILY_DECLARE(member) extern const struct gx_problem gx_##member;
@@ -19,8 +20,8 @@ const char *const gx_problem_boundary[GX_BOUNDARIES + 1] = {[GX_BOUNDARY_PERIODI
 
 static int tabulate(struct gx_posed *posed, int d)
 {
-  posed->sine[d] = malloc((posed->n + 1) * sizeof(double));
-  posed->cosine[d] = malloc((posed->n + 1) * sizeof(double));
+  posed->sine[d] = gx_large_zeros((posed->n + 1) * sizeof(double));
+  posed->cosine[d] = gx_large_zeros((posed->n + 1) * sizeof(double));
   if (!posed->sine[d] || !posed->cosine[d]) return -1;
   for (size_t p = 0; p < posed->n; p++) {
     double angle = 2 * M_PI * posed->options.mode * posed->X[d][p];
@@ -38,7 +39,7 @@ struct gx_posed *gx_problem_pose(const struct gx_problem *problem, const struct 
   *posed = (struct gx_posed){.problem = problem, .options = *options, .n = n};
   posed->speed = problem->material->wave_speed(&options->moduli);
   for (int d = 0; d < options->dim; d++) {
-    posed->X[d] = malloc((n + 1) * sizeof(double));
+    posed->X[d] = gx_large_zeros((n + 1) * sizeof(double));
     if (posed->X[d]) memcpy(posed->X[d], X[d], n * sizeof(double));
     if (!posed->X[d] || (problem->waves && tabulate(posed, d))) {
       gx_problem_free(posed);

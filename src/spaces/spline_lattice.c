@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../core/large.h"
 #include "sites.h"
 
 static enum gx_status report(const struct gx_spline_lattice *lattice, const struct gx_spline_error *error)
@@ -132,7 +133,7 @@ enum gx_status gx_spline_lattice_create(struct gx_spline_lattice *lattice, bool 
     GX_TRY(enough(lattice, direction->sites, lattice->stress_at_ends ? 2 : 0, "particles"));
     if (nodal) GX_TRY(enough(lattice, direction->nodes, 0, "nodes"));
   }
-  lattice->block = calloc(place_arrays(lattice, NULL) + 1, sizeof(double));
+  lattice->block = gx_large_zeros((place_arrays(lattice, NULL) + 1) * sizeof(double));
   if (!lattice->block) return gx_status_set(outcome, GX_FAILED, -1, "out of memory");
   place_arrays(lattice, lattice->block);
   for (int d = 0; d < lattice->dim; d++) {

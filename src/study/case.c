@@ -404,7 +404,7 @@ struct gx_result gx_case_run_by(const struct gx_case *one, const struct gx_case_
     if (done && refine > 0) compare_with_reference(&run, one, refine);
   }
   finish(&run); /* first: the estimate takes as much memory as a run */
-  if (prepared && result.outcome.status != GX_CANCELLED) result.stable_dt = gx_stable_dt(one, means->team);
+  if (prepared && result.outcome.status != GX_CANCELLED) result.stable_dt = gx_stable_dt(one, true, means->team);
   return result;
 }
 
@@ -450,7 +450,7 @@ struct gx_plan gx_case_plan(const struct gx_case *one)
   struct gx_simulation simulation;
   if (gx_simulation_plan(&simulation, one, &plan.outcome) == GX_OK && gx_simulation_build(&simulation, &plan.outcome) == GX_OK) {
     plan.particles = (double)simulation.particles->n;
-    plan.stable_dt = gx_stable_dt(one, NULL);
+    plan.stable_dt = gx_stable_dt(one, false, NULL);
     if (!simulation.space->through_cells)
       plan.growth = gx_stability_growth(simulation.space); /* else it sees the flow's own stretching */
   }

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../core/large.h"
+
 #include <gridcross/parameter.h>
 
 struct gx_simulation gx_simulation_begin(const struct gx_problem *problem, const struct gx_space_kind *kind,
@@ -298,7 +300,7 @@ double gx_simulation_kinetic_bound(const struct gx_simulation *simulation)
 {
   const struct gx_particles *particles = simulation->particles;
   double *scratch[GX_MAX_DIM] = {NULL};
-  double *block = malloc(particles->n * (size_t)particles->dim * sizeof(double));
+  double *block = gx_large_zeros(particles->n * (size_t)particles->dim * sizeof(double));
   if (!block) return INFINITY;
   for (int d = 0; d < particles->dim; d++) scratch[d] = block + (size_t)d * particles->n;
   double bound = simulation->problem->exact

@@ -11,7 +11,9 @@
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_errno.h>
 
-enum { LEAST_ITERATIONS = 10, MOST_ITERATIONS = (GX_STABILITY_EVALUATIONS - 1) / 2 };
+#include "../core/large.h"
+
+enum { LEAST_ITERATIONS = (GX_STABILITY_LEAST - 1) / 2, MOST_ITERATIONS = (GX_STABILITY_EVALUATIONS - 1) / 2 };
 static const double settled = 1e-3; /* relative change that ends the iteration */
 
 struct iteration {
@@ -81,7 +83,7 @@ static double with_state(struct gx_space *space, double (*compute)(struct iterat
   struct iteration it = {.space = space};
   space->kind->state(space, &it.state);
   for (int i = 0; i < it.state.count; i++) it.total += it.state.length[i];
-  double *block = calloc(4 * it.total, sizeof(double));
+  double *block = gx_large_zeros(4 * it.total * sizeof(double));
   if (!block) return NAN;
   it.start = block;
   it.rest = block + it.total;

@@ -5,7 +5,7 @@
 
 #include <gridcross/clock.h>
 
-enum { GX_STABILITY_EVALUATIONS = 201 }; /* of the rates, at most */
+enum { GX_STABILITY_LEAST = 21, GX_STABILITY_EVALUATIONS = 201 }; /* of the rates: at least and at most */
 
 /* Highest angular frequency of the space linearised at its present state, by power iteration, rad/s; NaN when the iteration
  * fails. From below: usually within a per cent. The state is restored, weights and forces are not. */

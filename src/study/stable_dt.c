@@ -19,23 +19,27 @@ static double unprojected_drift(const struct gx_splitting *splitting)
   return sum;
 }
 
-/* Few steps of many particles cost less than the power iteration, whose answer they do not need. */
-static bool is_worth_an_estimate(const struct gx_simulation *simulation)
+/* Few steps of many particles cost less than the power iteration, whose answer they do not need. Nor do those who only run it need that
+ * of fewer steps than the iteration takes at least; a budget costs as much as tens of steps. */
+static bool is_worth_an_estimate(const struct gx_simulation *simulation, const struct gx_case *one, bool running)
 {
   const double blink = 1e7; /* particle evaluations: tenths of a second */
   double lattice = pow((double)simulation->space_options.cells[0] * simulation->per_cell, simulation->problem_options.dim);
   double particles = simulation->points ? (double)simulation->points->n : lattice;
+  bool short_run = simulation->steps < GX_STABILITY_LEAST && one->value[GX_OUTPUT_BUDGET].type != GX_INTEGER;
+  if (running && short_run) return false;
   return simulation->steps >= GX_STABILITY_EVALUATIONS || particles * GX_STABILITY_EVALUATIONS <= blink;
 }
 
-double gx_stable_dt(const struct gx_case *one, struct gx_team *team)
+double gx_stable_dt(const struct gx_case *one, bool running, struct gx_team *team)
 {
   struct gx_simulation simulation;
   struct gx_outcome outcome;
   double dt = NAN;
   bool planned = gx_simulation_plan(&simulation, one, &outcome) == GX_OK;
   simulation.space_options.team = team;
-  if (planned && simulation.problem->material->piola && is_worth_an_estimate(&simulation)) { /* without stress nothing vibrates */
+  if (planned && simulation.problem->material->piola &&
+      is_worth_an_estimate(&simulation, one, running)) { /* without stress nothing vibrates */
     bool projected = simulation.space_options.each_step && !simulation.clock->tableau;
     if (projected) simulation.space_options.each_step = false;
     if (projected && simulation.clock->splitting && unprojected_drift(simulation.clock->splitting) < 0)

@@ -6,7 +6,7 @@
 #include <gridcross/study.h>
 
 /* Estimated on a fresh copy of the case, s; 0: no step is stable; NaN: the case cannot run, has no stress, or the estimate would cost more
- * than the run. team: borrowed, may be NULL. */
-double gx_stable_dt(const struct gx_case *one, struct gx_team *team);
+ * than the run. running: for the result of a run, whose few steps cost less; else for who asks. team: borrowed, may be NULL. */
+double gx_stable_dt(const struct gx_case *one, bool running, struct gx_team *team);
 
 #endif

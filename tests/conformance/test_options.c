@@ -295,7 +295,8 @@ static void runs_start_from_the_exact_state(void **state)
     }
 }
 
-/* A step of many particles is not worth the hundreds that the power iteration may take. */
+/* A step of many particles is not worth the hundreds that the power iteration may take, nor is a run of twenty steps of few the twenty-one
+ * that it takes at least. */
 static void the_stable_step_costs_no_more_than_the_run(void **state)
 {
   (void)state;
@@ -306,6 +307,13 @@ static void the_stable_step_costs_no_more_than_the_run(void **state)
   one.value[GX_TIME_STEPS].integer = 1;
   one.value[GX_MESH_CELLS].integer = 120; /* too small to matter */
   assert_true(gx_case_plan(&one).stable_dt > 0);
+  one.value[GX_TIME_STEPS].integer = 20;
+  assert_true(isnan(gx_case_run(&one).stable_dt));
+  one.value[GX_TIME_STEPS].integer = 21;
+  assert_true(gx_case_run(&one).stable_dt > 0);
+  one.value[GX_TIME_STEPS].integer = 1;
+  one.value[GX_OUTPUT_BUDGET] = (struct gx_value){.type = GX_INTEGER, .integer = 1}; /* a step with its budget takes longer */
+  assert_true(gx_case_run(&one).stable_dt > 0);
 }
 
 /* u_d = A sin(2 pi X_d) cos(phi_d) at the start, phases in multiples of pi. */
