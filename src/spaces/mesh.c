@@ -87,6 +87,7 @@ void gx_mesh_free(struct gx_space *space)
   gx_mass_free(mesh->consistent);
   gx_affine_free(mesh->affine);
   gx_lattice_free(mesh->lattice);
+  gx_line_free(mesh->line);
   gx_reconstruction_free(mesh->reconstruction);
   gx_blocks_free(&mesh->blocks);
   gx_exchange_free(&mesh->exchange);
@@ -281,7 +282,12 @@ enum gx_status gx_mesh_postpone(struct gx_mesh *mesh)
 
 void gx_mesh_catch_up(struct gx_mesh *mesh)
 {
-  if (mesh->unprojected) gx_mesh_assemble(mesh, mesh->options.each_step ? mesh->space.particles->v : NULL, mesh->v);
+  const bool unprojected = mesh->unprojected;
+  mesh->unprojected = false;
+  if (unprojected && mesh->line)
+    gx_line_project(mesh);
+  else if (unprojected)
+    gx_mesh_assemble(mesh, mesh->options.each_step ? mesh->space.particles->v : NULL, mesh->v);
 }
 
 enum gx_status gx_mesh_project(struct gx_mesh *mesh, double *const *value, double *const *field)

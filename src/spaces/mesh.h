@@ -9,6 +9,7 @@
 #include "blocks.h"
 #include "exchange.h"
 #include "lattice.h"
+#include "line.h"
 #include "mass.h"
 #include "reconstruction.h"
 
@@ -19,6 +20,7 @@ struct gx_mesh {
   struct gx_blocks blocks; /* of particles, with their weights and scratch */
   struct gx_exchange exchange;
   struct gx_lattice *lattice;               /* moving mesh: its transfers factored by direction; NULL: by blocks alone */
+  struct gx_line *line;                     /* standard space in 1-D: its transfers; NULL: by blocks alone */
   struct gx_mass *consistent;               /* NULL: lumped */
   struct gx_affine *affine;                 /* NULL: particles keep no affine part of velocity */
   struct gx_reconstruction *reconstruction; /* NULL: integrals are sums over particles */

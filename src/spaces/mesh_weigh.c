@@ -38,8 +38,9 @@ static enum gx_status weigh(struct gx_mesh *mesh, double *const *u, double *cons
     const bool periodic = mesh->grid.axis[d].periodic;
     low[d] = periodic ? -far : -edge;
     high[d] = periodic ? far : 1 + edge;
-    mesh->blocks.half[d] = domains(mesh, d, F, frozen);
   }
+  if (mesh->line && !frozen && gx_line_weigh(mesh->line, low[0], high[0])) return GX_OK;
+  for (int d = 0; d < mesh->grid.dim; d++) mesh->blocks.half[d] = domains(mesh, d, F, frozen);
   struct gx_blocks_stray stray = gx_blocks_place(&mesh->blocks, u, low, high);
   if (stray.d >= 0) return report_stray(mesh, &stray);
   if (mesh->affine) gx_affine_weigh(mesh, mesh->blocks.x);

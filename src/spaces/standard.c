@@ -31,6 +31,7 @@ static enum gx_status create(const struct gx_space_kind *kind, struct gx_space *
   GX_TRY(weights(*space));
   GX_TRY(gx_mesh_assemble(mesh, particles->v, mesh->v));
   if (mesh->affine) gx_affine_gather(mesh);
+  mesh->line = gx_line_create(mesh);
   return GX_OK;
 }
 
@@ -66,8 +67,24 @@ static long load(struct gx_mesh *mesh, struct gx_block *block)
   return tangled;
 }
 
+static enum gx_status accelerate_line(struct gx_mesh *mesh, double t)
+{
+  const struct gx_particles *particles = mesh->space.particles;
+  const struct gx_posed *posed = mesh->space.posed;
+  long tangled = posed->problem->material->piola(&posed->options.moduli, 1, particles->n, particles->F, particles->P);
+  if (tangled >= 0)
+    return gx_status_set(mesh->space.outcome, GX_TANGLED, tangled, "det F of a particle is %g",
+                         gx_particles_jacobian(particles, (size_t)tangled));
+  if (posed->problem->body) posed->problem->body(posed, t, particles->b);
+  gx_line_accelerate(mesh, mesh->unprojected);
+  mesh->unprojected = false;
+  return GX_OK;
+}
+
 static enum gx_status accelerate(struct gx_space *space, double t)
 {
+  struct gx_mesh *mesh = (struct gx_mesh *)space;
+  if (mesh->line) return accelerate_line(mesh, t);
   return gx_mesh_accelerate((struct gx_mesh *)space, t, load);
 }
 
@@ -150,6 +167,7 @@ static void advance(struct gx_space *space, double kick, double strain, double d
   gx_mesh_catch_up(mesh);
   if (kick != 0)
     for (int d = 0; d < mesh->grid.dim; d++) gx_vector_add(mesh->grid.stored, kick, mesh->a[d], mesh->v[d]);
+  if (mesh->line && gx_line_advance(mesh, kick, strain, drift)) return;
   double momentum[GX_MAX_DIM];
   gx_mesh_momentum_expect(mesh, kick, momentum);
   if (kick != 0 && mesh->affine) gx_affine_gather(mesh);
