@@ -143,6 +143,10 @@ int gx_study_run(const struct gx_study *study, const struct gx_study_means *mean
 
 /* Columns case, every parameter, every result; timing columns last and only if asked. results: [count]. NULL when memory runs out. */
 struct gx_table *gx_study_table(const struct gx_study *study, const struct gx_result *results, bool timing);
+/* The same row by row: `rows` rows of null, and one filled in. Returns 0, or -1 when memory runs out. */
+struct gx_table *gx_study_table_begin(size_t rows, bool timing);
+int gx_study_table_fill(struct gx_table *table, size_t row, const struct gx_case *one, const struct gx_result *result,
+                        bool timing);
 /* One row a sample: time, displacement.inf, ..., energy.kinetic, ..., crossings; with output.jumps also jump.step, jump.inf, ...;
  * with output.probe also probe.displacement, ..., in 2-D and 3-D by component, probe.displacement.x. NULL when memory runs out. */
 struct gx_table *gx_study_table_history(const struct gx_result *result);

@@ -40,20 +40,32 @@ static void write_value(struct gx_value value, FILE *out)
   write_plain(number, out);
 }
 
-void gx_csv_write(const struct gx_table *table, FILE *out)
+void gx_csv_write_head(const struct gx_table *table, size_t columns, FILE *out)
 {
   flockfile(out);
-  for (size_t c = 0; c < table->columns; c++) {
+  for (size_t c = 0; c < columns; c++) {
     if (c) putc_unlocked(',', out);
     write_text(table->column[c].name, out);
   }
   putc_unlocked('\n', out);
-  for (size_t r = 0; r < table->rows; r++) {
-    for (size_t c = 0; c < table->columns; c++) {
+  funlockfile(out);
+}
+
+void gx_csv_write_rows(const struct gx_table *table, size_t columns, size_t rows, FILE *out)
+{
+  flockfile(out);
+  for (size_t r = 0; r < rows; r++) {
+    for (size_t c = 0; c < columns; c++) {
       if (c) putc_unlocked(',', out);
       write_value(gx_table_get(table, r, c), out);
     }
     putc_unlocked('\n', out);
   }
   funlockfile(out);
+}
+
+void gx_csv_write(const struct gx_table *table, FILE *out)
+{
+  gx_csv_write_head(table, table->columns, out);
+  gx_csv_write_rows(table, table->columns, table->rows, out);
 }

@@ -8,7 +8,8 @@
 
 #include "../core/nearest.h"
 #include "entry.h"
-#include "handle.h"
+#include "hdf5_read.h"
+#include "hdf5_rows.h"
 
 static int get_column(hid_t dataset, const char *name, struct gx_table *table, size_t c)
 {
@@ -31,7 +32,7 @@ static int get_column(hid_t dataset, const char *name, struct gx_table *table, s
   return failed;
 }
 
-static struct gx_table *get_table(hid_t group)
+struct gx_table *gx_hdf5_read_group(hid_t group)
 {
   struct gx_table *table = NULL;
   H5G_info_t info;
@@ -54,8 +55,7 @@ static struct gx_table *get_table(hid_t group)
   return table;
 }
 
-/* A study file of our format, or -1 after a message. */
-static hid_t open_study(const char *path, FILE *errors)
+hid_t gx_hdf5_read_open(const char *path, FILE *errors)
 {
   int64_t format = 0;
   FILE *probe = fopen(path, "rb");
@@ -84,13 +84,9 @@ static hid_t open_study(const char *path, FILE *errors)
 
 struct gx_table *gx_hdf5_read(const char *path, FILE *errors)
 {
-  struct gx_handle_silence old = gx_handle_silence();
-  struct gx_table *table = NULL;
-  hid_t file = open_study(path, errors), group = file < 0 ? -1 : gx_handle_open_group(file, "table");
-  if (group >= 0 && !(table = get_table(group))) fprintf(errors, "%s: its table is damaged\n", path);
-  if (group >= 0) H5Gclose(group);
-  if (file >= 0) H5Fclose(file);
-  gx_handle_restore(old);
+  struct gx_hdf5_rows *rows = gx_hdf5_rows_begin(path, 0, NULL, errors);
+  struct gx_table *table = rows ? gx_hdf5_rows_next(rows, gx_hdf5_rows_total(rows), 0) : NULL;
+  gx_hdf5_rows_end(rows);
   return table;
 }
 
@@ -98,7 +94,7 @@ char *gx_hdf5_read_title(const char *path, FILE *errors)
 {
   struct gx_handle_silence old = gx_handle_silence();
   char *title = NULL;
-  hid_t file = open_study(path, errors), provenance = file < 0 ? -1 : gx_handle_open_group(file, "provenance");
+  hid_t file = gx_hdf5_read_open(path, errors), provenance = file < 0 ? -1 : gx_handle_open_group(file, "provenance");
   if (provenance >= 0 && !(title = gx_handle_get_text(provenance, "title"))) fprintf(errors, "%s: its title is damaged\n", path);
   if (provenance >= 0) H5Gclose(provenance);
   if (file >= 0) H5Fclose(file);
@@ -150,7 +146,7 @@ struct gx_table *gx_hdf5_read_history(const char *path, const char *id, const ch
 {
   struct gx_handle_silence old = gx_handle_silence();
   struct gx_table *table = NULL;
-  hid_t file = open_study(path, errors), group = file < 0 ? -1 : open_kept(file, path, "histories", id, errors);
+  hid_t file = gx_hdf5_read_open(path, errors), group = file < 0 ? -1 : open_kept(file, path, "histories", id, errors);
   if (group >= 0 && (!*name || strchr(name, '/') || H5Lexists(group, name, H5P_DEFAULT) <= 0))
     name_histories(group, name, errors);
   else if (group >= 0 && !(table = get_history(group, name)))
@@ -165,8 +161,8 @@ struct gx_table *gx_hdf5_read_spectra(const char *path, const char *id, FILE *er
 {
   struct gx_handle_silence old = gx_handle_silence();
   struct gx_table *table = NULL;
-  hid_t file = open_study(path, errors), group = file < 0 ? -1 : open_kept(file, path, "spectra", id, errors);
-  if (group >= 0 && !(table = get_table(group))) fprintf(errors, "%s: the spectra of case %s are damaged\n", path, id);
+  hid_t file = gx_hdf5_read_open(path, errors), group = file < 0 ? -1 : open_kept(file, path, "spectra", id, errors);
+  if (group >= 0 && !(table = gx_hdf5_read_group(group))) fprintf(errors, "%s: the spectra of case %s are damaged\n", path, id);
   if (group >= 0) H5Gclose(group);
   if (file >= 0) H5Fclose(file);
   gx_handle_restore(old);

@@ -1,127 +1,198 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writing study.h5. Object times are off, so that equal studies give equal bytes. */
-#include <gridcross/store.h>
+/* Writing study.h5. Object times are off, so that equal studies give equal bytes. In a dataset NaN, the attribute `null` of an
+ * integer column, and the null string stand for null. */
+#include "hdf5_write.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
-#include <gridcross/build.h>
-
+#include "disk.h"
 #include "entry.h"
 #include "handle.h"
 
-static int put_column(hid_t group, const struct gx_table *table, size_t c, hid_t text, union gx_entry *entry)
+const char *const gx_hdf5_write_kept_name[GX_HDF5_KEPT] = {"histories", "spectra"};
+
+/* A table in a group, its datasets open for rows to come. */
+struct sheet {
+  size_t columns, rows, written;
+  enum gx_type *type; /* [columns], owned */
+  hid_t *dataset;     /* [columns], owned */
+  hid_t group, space, text;
+  union gx_entry *entry; /* [room], owned: a column of the rows that are written at once */
+  size_t room;
+};
+
+struct gx_hdf5_writer {
+  const char *path;
+  FILE *errors;
+  struct gx_handle_silence silence;
+  struct gx_disk disk;
+  int descriptor;
+  hid_t file, kept[GX_HDF5_KEPT];
+  struct sheet table;
+};
+
+static hid_t file_type(const struct sheet *sheet, enum gx_type type)
 {
-  const struct gx_column *column = &table->column[c];
-  bool real = column->type == GX_REAL, integer = column->type == GX_INTEGER;
-  hid_t file_type = real ? H5T_IEEE_F64LE : integer ? H5T_STD_I64LE : text;
-  hid_t memory_type = real ? H5T_NATIVE_DOUBLE : integer ? H5T_NATIVE_INT64 : text;
-  for (size_t r = 0; r < table->rows; r++) entry[r] = gx_entry_from(column->type, gx_table_get(table, r, c));
-  hid_t dataset = gx_handle_make_dataset(group, column->name, file_type, table->rows);
-  if (dataset < 0) return -1;
-  int failed = gx_handle_put_text(dataset, "unit", column->unit);
-  if (!failed && integer) failed = gx_handle_put_integer(dataset, "null", gx_entry_null);
-  if (!failed && H5Dwrite(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, entry) < 0) failed = -1;
-  return H5Dclose(dataset) < 0 ? -1 : failed;
+  return type == GX_REAL ? H5T_IEEE_F64LE : type == GX_INTEGER ? H5T_STD_I64LE : sheet->text;
 }
 
-static int put_table(hid_t parent, const char *name, const struct gx_table *table)
+static hid_t memory_type(const struct sheet *sheet, enum gx_type type)
 {
-  int failed = -1;
-  union gx_entry *entry = calloc(table->rows + 1, sizeof *entry);
-  hid_t text = gx_handle_text_type(), group = gx_handle_make_group(parent, name);
-  if (entry && text >= 0 && group >= 0) failed = 0;
-  for (size_t c = 0; c < table->columns && !failed; c++) failed = put_column(group, table, c, text, entry);
-  if (group >= 0 && H5Gclose(group) < 0) failed = -1;
-  if (text >= 0) H5Tclose(text);
-  free(entry);
+  return type == GX_REAL ? H5T_NATIVE_DOUBLE : type == GX_INTEGER ? H5T_NATIVE_INT64 : sheet->text;
+}
+
+static int close_sheet(struct sheet *sheet)
+{
+  int failed = 0;
+  for (size_t c = 0; sheet->dataset && c < sheet->columns; c++)
+    if (sheet->dataset[c] > 0 && H5Dclose(sheet->dataset[c]) < 0) failed = -1;
+  if (sheet->space > 0) H5Sclose(sheet->space);
+  if (sheet->text > 0) H5Tclose(sheet->text);
+  if (sheet->group > 0 && H5Gclose(sheet->group) < 0) failed = -1;
+  free(sheet->dataset);
+  free(sheet->type);
+  free(sheet->entry);
+  *sheet = (struct sheet){0};
   return failed;
 }
 
-/* What cases keep beside the study's table, one table each. */
-static int put_kept(hid_t file, const char *name, const struct gx_study *study, const struct gx_result *results,
-                    struct gx_table *(*table_of)(const struct gx_result *result))
+static int make_column(struct sheet *sheet, size_t c, const struct gx_column *column)
 {
-  hid_t group = gx_handle_make_group(file, name);
-  int failed = group < 0 ? -1 : 0;
-  for (size_t i = 0; i < study->count && !failed; i++) {
-    struct gx_table *table = table_of(&results[i]);
-    failed = !table ? -1 : table->rows ? put_table(group, study->cases[i].id, table) : 0;
-    gx_table_free(table);
+  hid_t dataset = gx_handle_make_dataset(sheet->group, column->name, file_type(sheet, column->type), sheet->rows);
+  sheet->type[c] = column->type;
+  sheet->dataset[c] = dataset;
+  if (dataset < 0 || gx_handle_put_text(dataset, "unit", column->unit)) return -1;
+  return column->type == GX_INTEGER ? gx_handle_put_integer(dataset, "null", gx_entry_null) : 0;
+}
+
+static int make_sheet(struct sheet *sheet, hid_t parent, const char *name, const struct gx_table *table, size_t columns,
+                      size_t rows)
+{
+  hsize_t shape[1] = {rows};
+  *sheet = (struct sheet){.columns = columns, .rows = rows};
+  sheet->type = calloc(columns + 1, sizeof *sheet->type);
+  sheet->dataset = calloc(columns + 1, sizeof *sheet->dataset);
+  sheet->text = gx_handle_text_type();
+  sheet->space = H5Screate_simple(1, shape, NULL);
+  sheet->group = gx_handle_make_group(parent, name);
+  if (!sheet->type || !sheet->dataset || sheet->text < 0 || sheet->space < 0 || sheet->group < 0) return -1;
+  for (size_t c = 0; c < columns; c++)
+    if (make_column(sheet, c, &table->column[c])) return -1;
+  return 0;
+}
+
+static int write_rows(struct sheet *sheet, const struct gx_table *part, size_t rows)
+{
+  hsize_t first[1] = {sheet->written}, count[1] = {rows};
+  if (!rows) return 0;
+  if (part->columns < sheet->columns || rows > sheet->rows - sheet->written) return -1;
+  if (rows > sheet->room) {
+    union gx_entry *grown = realloc(sheet->entry, rows * sizeof *grown);
+    if (!grown) return -1;
+    sheet->entry = grown;
+    sheet->room = rows;
   }
-  if (group >= 0 && H5Gclose(group) < 0) failed = -1;
+  hid_t memory = H5Screate_simple(1, count, NULL);
+  int failed = memory < 0 || H5Sselect_hyperslab(sheet->space, H5S_SELECT_SET, first, NULL, count, NULL) < 0 ? -1 : 0;
+  for (size_t c = 0; c < sheet->columns && !failed; c++) {
+    const enum gx_type type = sheet->type[c];
+    for (size_t r = 0; r < rows; r++) sheet->entry[r] = gx_entry_from(type, gx_table_get(part, r, c));
+    if (H5Dwrite(sheet->dataset[c], memory_type(sheet, type), memory, sheet->space, H5P_DEFAULT, sheet->entry) < 0) failed = -1;
+  }
+  if (memory >= 0) H5Sclose(memory);
+  sheet->written += rows;
   return failed;
 }
 
-static int put_provenance(hid_t file, const struct gx_study *study)
+/* 0 unless something has gone wrong, on disk or in HDF5. */
+static int check(struct gx_hdf5_writer *writer, int failed)
 {
-  const struct {
-    const char *name, *text;
-  } rows[] = {{"title", study->title},         {"run_file", study->source},
-              {"version", gx_build.version},   {"git_revision", gx_build.git_revision},
-              {"compiler", gx_build.compiler}, {"flags", gx_build.flags},
-              {"gsl", gx_build.gsl},           {"fftw", gx_build.fftw},
-              {"hdf5", gx_build.hdf5},         {"yaml", gx_build.yaml}};
+  const int disk = writer->disk.failed;
+  if (!failed && !disk) return 0;
+  if (writer->errors) fprintf(writer->errors, "%s: cannot write: %s\n", writer->path, disk ? strerror(disk) : "HDF5 failed");
+  writer->errors = NULL; /* once is enough */
+  return -1;
+}
+
+static hid_t create_file(struct gx_hdf5_writer *writer)
+{
+  hid_t access = gx_disk_access(&writer->disk, writer->descriptor), property = H5Pcreate(H5P_FILE_CREATE), file = -1;
+  if (access >= 0 && property >= 0 && H5Pset_obj_track_times(property, false) >= 0)
+    file = H5Fcreate(writer->path, H5F_ACC_TRUNC, property, access);
+  if (access >= 0) H5Pclose(access);
+  if (property >= 0) H5Pclose(property);
+  return file;
+}
+
+struct gx_hdf5_writer *gx_hdf5_write_begin(const char *path, const struct gx_table *table, size_t columns, size_t rows,
+                                           FILE *errors)
+{
+  struct gx_hdf5_writer *writer = calloc(1, sizeof *writer);
+  int descriptor = writer ? open(path, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666) : -1;
+  if (descriptor < 0) {
+    fprintf(errors, "%s: cannot write: %s\n", path, strerror(writer ? errno : ENOMEM));
+    free(writer);
+    return NULL;
+  }
+  *writer = (struct gx_hdf5_writer){
+      .path = path, .errors = errors, .silence = gx_handle_silence(), .descriptor = descriptor, .file = -1};
+  writer->file = create_file(writer);
+  int failed = writer->file < 0 || make_sheet(&writer->table, writer->file, "table", table, columns, rows) ? -1 : 0;
+  for (int k = 0; k < GX_HDF5_KEPT && !failed; k++)
+    if ((writer->kept[k] = gx_handle_make_group(writer->file, gx_hdf5_write_kept_name[k])) < 0) failed = -1;
+  if (!check(writer, failed)) return writer;
+  gx_hdf5_write_end(writer, NULL);
+  return NULL;
+}
+
+int gx_hdf5_write_rows(struct gx_hdf5_writer *writer, const struct gx_table *part, size_t rows)
+{
+  return check(writer, write_rows(&writer->table, part, rows));
+}
+
+int gx_hdf5_write_kept(struct gx_hdf5_writer *writer, enum gx_hdf5_kept what, const char *id, const struct gx_table *table)
+{
+  struct sheet sheet;
+  int failed = make_sheet(&sheet, writer->kept[what], id, table, table->columns, table->rows);
+  if (!failed) failed = write_rows(&sheet, table, table->rows);
+  if (close_sheet(&sheet)) failed = -1;
+  return check(writer, failed);
+}
+
+static int put_provenance(hid_t file, const struct gx_provenance *provenance)
+{
   hid_t group = gx_handle_make_group(file, "provenance");
   if (group < 0) return -1;
   int failed = gx_handle_put_integer(group, "format", GX_HDF5_FORMAT);
-  for (size_t i = 0; i < sizeof rows / sizeof *rows && !failed; i++)
-    failed = gx_handle_put_text(group, rows[i].name, rows[i].text);
-  return H5Gclose(group) < 0 ? -1 : failed;
+  for (int i = 0; i < GX_PROVENANCE_TEXTS && !failed; i++)
+    failed = gx_handle_put_text(group, gx_provenance_name[i], provenance->text[i]);
+  if (provenance->identity && !failed)
+    failed = gx_handle_put_integer(group, "shard", (int64_t)provenance->shard) ||
+             gx_handle_put_integer(group, "shards", (int64_t)provenance->shards) ||
+             gx_handle_put_integer(group, "cases", (int64_t)provenance->cases) ||
+             gx_handle_put_text(group, "identity", provenance->identity);
+  return H5Gclose(group) < 0 || failed ? -1 : 0;
 }
 
-static int put_study(hid_t file, const struct gx_study *study, const struct gx_result *results, const struct gx_table *table)
+int gx_hdf5_write_end(struct gx_hdf5_writer *writer, const struct gx_provenance *provenance)
 {
-  if (put_table(file, "table", table)) return -1;
-  if (put_kept(file, "histories", study, results, gx_study_table_history)) return -1;
-  if (put_kept(file, "spectra", study, results, gx_study_table_spectra)) return -1;
-  return put_provenance(file, study);
-}
-
-/* The whole file as bytes, owned by the caller: HDF5 that cannot write to a full disk leaves a file open which crashes at exit,
- * so that it never touches the disk here. */
-static void *make_image(const struct gx_study *study, const struct gx_result *results, const struct gx_table *table, size_t *size)
-{
-  enum { GROWTH = 1 << 20 };
-  void *image = NULL;
-  hid_t file = -1, property = H5Pcreate(H5P_FILE_CREATE), access = H5Pcreate(H5P_FILE_ACCESS);
-  if (property >= 0 && access >= 0 && H5Pset_obj_track_times(property, false) >= 0 &&
-      H5Pset_fapl_core(access, GROWTH, false) >= 0)
-    file = H5Fcreate("study.h5", H5F_ACC_TRUNC, property, access);
-  if (file >= 0 && !put_study(file, study, results, table) && H5Fflush(file, H5F_SCOPE_GLOBAL) >= 0) {
-    ssize_t length = H5Fget_file_image(file, NULL, 0);
-    image = length > 0 ? malloc((size_t)length) : NULL;
-    *size = image ? (size_t)length : 0;
-    if (image && H5Fget_file_image(file, image, *size) != length) {
-      free(image);
-      image = NULL;
-    }
-  }
-  if (file >= 0) H5Fclose(file);
-  if (access >= 0) H5Pclose(access);
-  if (property >= 0) H5Pclose(property);
-  return image;
-}
-
-static int write_image(const char *path, const void *image, size_t size)
-{
-  FILE *out = fopen(path, "wb");
-  if (!out) return -1;
-  int failed = fwrite(image, 1, size, out) == size ? 0 : -1;
-  return fclose(out) ? -1 : failed;
-}
-
-int gx_hdf5_write(const char *path, const struct gx_study *study, const struct gx_result *results, const struct gx_table *table,
-                  FILE *errors)
-{
-  struct gx_handle_silence old = gx_handle_silence();
-  size_t size = 0;
-  void *image = make_image(study, results, table, &size);
-  gx_handle_restore(old);
-  errno = 0;
-  int failed = image ? write_image(path, image, size) : -1;
-  if (failed) fprintf(errors, "%s: cannot write: %s\n", path, errno ? strerror(errno) : "HDF5 failed");
-  free(image);
+  int failed = !provenance || writer->table.written != writer->table.rows ? -1 : 0;
+  if (!provenance) writer->errors = NULL;
+  if (close_sheet(&writer->table)) failed = -1;
+  for (int k = 0; k < GX_HDF5_KEPT; k++)
+    if (writer->kept[k] > 0 && H5Gclose(writer->kept[k]) < 0) failed = -1;
+  if (!failed) failed = put_provenance(writer->file, provenance);
+  if (writer->file >= 0 && H5Fclose(writer->file) < 0) failed = -1;
+  gx_disk_end(&writer->disk);
+  gx_handle_restore(writer->silence);
+  /* EINVAL: a file system that cannot; nothing more to be done there. */
+  if (!failed && !writer->disk.failed && fsync(writer->descriptor) && errno != EINVAL) writer->disk.failed = errno;
+  if (close(writer->descriptor) && !writer->disk.failed) writer->disk.failed = errno;
+  failed = check(writer, failed);
+  free(writer);
   return failed;
 }

@@ -36,10 +36,10 @@ static void write_value(struct gx_value value, FILE *out)
   }
 }
 
-void gx_json_write_object(const struct gx_table *table, size_t row, FILE *out)
+static void write_row(const struct gx_table *table, size_t columns, size_t row, FILE *out)
 {
   putc('{', out);
-  for (size_t c = 0; c < table->columns; c++) {
+  for (size_t c = 0; c < columns; c++) {
     if (c) fputs(", ", out);
     write_text(table->column[c].name, out);
     fputs(": ", out);
@@ -48,12 +48,27 @@ void gx_json_write_object(const struct gx_table *table, size_t row, FILE *out)
   putc('}', out);
 }
 
+void gx_json_write_object(const struct gx_table *table, size_t row, FILE *out)
+{
+  write_row(table, table->columns, row, out);
+}
+
+void gx_json_write_rows(const struct gx_table *table, size_t columns, bool first, FILE *out)
+{
+  if (first) putc('[', out);
+  for (size_t r = 0; r < table->rows; r++) {
+    fputs(r || !first ? ",\n " : "\n ", out);
+    write_row(table, columns, r, out);
+  }
+}
+
+void gx_json_write_end(FILE *out)
+{
+  fputs("\n]\n", out);
+}
+
 void gx_json_write(const struct gx_table *table, FILE *out)
 {
-  putc('[', out);
-  for (size_t r = 0; r < table->rows; r++) {
-    fputs(r ? ",\n " : "\n ", out);
-    gx_json_write_object(table, r, out);
-  }
-  fputs("\n]\n", out);
+  gx_json_write_rows(table, table->columns, true, out);
+  gx_json_write_end(out);
 }

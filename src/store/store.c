@@ -1,400 +1,280 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The study directory. Files are written beside their final names, flushed to disk and renamed, study.h5 first, so that a kill
- * at any instant leaves the old study or the new one. */
+/* A study directory under way: what is there already, a journal for what comes, and its assembly at the end. */
 #include <gridcross/store.h>
 
-#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <time.h>
+#include <sys/file.h>
 #include <unistd.h>
 
-enum { STUDY, TABLE, TIMING, RUN, FILES };
+#include "assembly.h"
+#include "hdf5_rows.h"
+#include "journals.h"
 
-static const char *const names[FILES] = {
-    [STUDY] = "study.h5", [TABLE] = "table.csv", [TIMING] = "timing.csv", [RUN] = "run.json"};
+struct gx_store {
+  char *directory; /* owned */
+  const struct gx_study *study;
+  FILE *errors;
+  char *whole, *identity; /* owned: of the study, and of this shard of it */
+  size_t shard, shards;   /* from 1; 0: undivided */
+  bool *skip;             /* [study->count], owned */
+  size_t total;           /* cases of this shard */
+  atomic_size_t done;     /* of them with a result */
+  bool finished;          /* the directory holds the study already */
+  int lock;               /* descriptor of the directory, -1: none */
+  struct gx_journal *journal;
+};
 
-/* DIRECTORY/<prefix><name><suffix>, owned by the caller */
-static char *path_in(const char *directory, const char *prefix, const char *name, const char *suffix)
+static bool is_mine(const struct gx_store *store, size_t index)
 {
-  size_t room = strlen(directory) + strlen(prefix) + strlen(name) + strlen(suffix) + 2;
-  char *path = malloc(room);
-  if (path) snprintf(path, room, "%s/%s%s%s", directory, prefix, name, suffix);
-  return path;
+  return !store->shards || index % store->shards == store->shard - 1;
 }
 
-static char *partial_path(const char *directory, int file)
+/* Nobody else writes there meanwhile. A file system without locks is taken at its word. */
+static int lock_directory(struct gx_store *store)
 {
-  return path_in(directory, ".", names[file], ".partial");
-}
-
-static int say(FILE *errors, const char *path)
-{
-  fprintf(errors, "%s: %s\n", path ? path : "study", path ? strerror(errno) : "out of memory");
+  store->lock = open(store->directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (store->lock < 0 || !flock(store->lock, LOCK_EX | LOCK_NB) || errno != EWOULDBLOCK) return 0;
+  fprintf(store->errors, "%s: another run is under way there: name another directory with -o\n", store->directory);
   return -1;
 }
 
-/* Only what an interrupted run leaves: nothing, or partial files. */
-static int check_empty(const char *directory, FILE *errors)
+static int identify(struct gx_store *store)
 {
-  DIR *stream = opendir(directory);
-  if (!stream) return say(errors, directory);
-  int failed = 0;
-  for (struct dirent *entry; !failed && (entry = readdir(stream));) {
-    size_t n = strlen(entry->d_name);
-    bool ours = !strcmp(entry->d_name, ".") || !strcmp(entry->d_name, "..") ||
-                (n > 8 && entry->d_name[0] == '.' && !strcmp(entry->d_name + n - 8, ".partial"));
-    if (ours) continue;
-    fprintf(errors, "%s: is neither a study nor empty (it holds %s): name another directory with -o\n", directory, entry->d_name);
+  char shard[64];
+  snprintf(shard, sizeof shard, "shard\t%zu/%zu\n", store->shards ? store->shard : 1, store->shards ? store->shards : 1);
+  store->whole = gx_provenance_identify(store->study);
+  size_t room = store->whole ? strlen(store->whole) + sizeof shard : 0;
+  store->identity = store->whole ? malloc(room) : NULL;
+  if (!store->identity) return gx_assembly_say(store->errors, NULL);
+  snprintf(store->identity, room, "%s%s", store->whole, shard);
+  return 0;
+}
+
+/* The identity of the study that the directory holds, owned by the caller; NULL after a message. */
+static char *identity_there(const struct gx_store *store)
+{
+  char *path = gx_assembly_path(store->directory, "", gx_assembly_name[GX_ASSEMBLY_STUDY], "");
+  const char *const columns[] = {"case"};
+  struct gx_hdf5_rows *rows = path ? gx_hdf5_rows_begin(path, 1, columns, store->errors) : NULL;
+  const struct gx_provenance *provenance = rows ? gx_hdf5_rows_provenance(rows) : NULL;
+  char *identity = NULL, shard[64] = "shard\t1/1\n";
+  if (provenance && provenance->identity) {
+    snprintf(shard, sizeof shard, "shard\t%zu/%zu\n", provenance->shard, provenance->shards);
+    identity = strdup(provenance->identity);
+  } else if (provenance) {
+    struct gx_provenance_sum cases = {0};
+    struct gx_table *table = NULL;
+    for (size_t left = gx_hdf5_rows_total(rows); left && (table = gx_hdf5_rows_next(rows, 4096, 0)); left -= table->rows) {
+      for (size_t r = 0; r < table->rows; r++) {
+        struct gx_value id = gx_table_get(table, r, 0);
+        if (id.type == GX_TEXT) gx_provenance_add(&cases, id.text, strlen(id.text));
+      }
+      gx_table_free(table);
+    }
+    identity = gx_provenance_identity(provenance, &cases, (size_t)gx_store_read_repeats(store->directory));
+  }
+  gx_hdf5_rows_end(rows);
+  free(path);
+  char *both = identity ? malloc(strlen(identity) + sizeof shard) : NULL;
+  if (both) sprintf(both, "%s%s", identity, shard);
+  free(identity);
+  return both;
+}
+
+/* Nothing was under way: the study that is there is this one, or --resume was not meant for it. */
+static int take_finished(struct gx_store *store)
+{
+  char *study = gx_assembly_path(store->directory, "", gx_assembly_name[GX_ASSEMBLY_STUDY], "");
+  const bool any = study && !access(study, F_OK);
+  free(study);
+  if (!any) return 0;
+  char *there = identity_there(store);
+  if (!there) return -1;
+  store->finished = gx_provenance_equal(there, store->identity, NULL);
+  if (!store->finished) {
+    fprintf(store->errors, "%s: holds another study, which --resume does not go on with; they differ in ", store->directory);
+    gx_provenance_equal(there, store->identity, store->errors);
+    fputs(": name another directory with -o, or leave out --resume to replace it\n", store->errors);
+  }
+  free(there);
+  for (size_t i = 0; i < store->study->count && store->finished; i++) store->skip[i] = true;
+  if (store->finished) store->done = store->total;
+  return store->finished ? 0 : -1;
+}
+
+static void mark(void *context, size_t journal, size_t index, uint64_t offset)
+{
+  struct gx_store *store = context;
+  (void)journal, (void)offset;
+  if (index >= store->study->count || store->skip[index]) return;
+  store->skip[index] = true;
+  store->done++;
+}
+
+static int begin(struct gx_store *store, const struct gx_store_how *how)
+{
+  store->skip = calloc(store->study->count + 1, sizeof *store->skip);
+  if (!store->directory || !store->skip) return gx_assembly_say(store->errors, NULL);
+  if (identify(store)) return -1;
+  for (size_t i = 0; i < store->study->count; i++) {
+    store->total += is_mine(store, i);
+    store->skip[i] = !is_mine(store, i);
+  }
+  if (!how->joins) {
+    if (gx_store_prepare(store->directory, store->errors) || lock_directory(store)) return -1;
+    if (gx_journals_check(store->directory, store->identity, how->resume, store->errors)) return -1;
+    struct gx_journals *journals = gx_journals_open(store->directory, store->identity, store->errors);
+    if (!journals) return -1;
+    int failed = gx_journals_scan(journals, mark, store);
+    gx_journals_close(journals);
+    if (failed || (how->resume && !store->done && take_finished(store))) return -1;
+  }
+  if (store->finished) return 0;
+  store->journal = gx_journal_create(store->directory, store->identity, store->errors);
+  return store->journal ? 0 : -1;
+}
+
+struct gx_store *gx_store_open(const char *directory, const struct gx_study *study, const struct gx_store_how *how, FILE *errors)
+{
+  struct gx_store *store = calloc(1, sizeof *store);
+  if (!store) {
+    gx_assembly_say(errors, NULL);
+    return NULL;
+  }
+  *store = (struct gx_store){.directory = strdup(directory),
+                             .study = study,
+                             .errors = errors,
+                             .shard = how->shard,
+                             .shards = how->shards > 1 ? how->shards : 0,
+                             .lock = -1};
+  if (!begin(store, how)) return store;
+  gx_store_close(store);
+  return NULL;
+}
+
+static int put(void *context, size_t index, struct gx_result *result)
+{
+  struct gx_store *store = context;
+  if (gx_journal_append(store->journal, index, result)) return -1;
+  atomic_fetch_add(&store->done, 1);
+  return 0;
+}
+
+struct gx_sink gx_store_sink(struct gx_store *store)
+{
+  return (struct gx_sink){.context = store, .done = put};
+}
+
+const bool *gx_store_skip(const struct gx_store *store)
+{
+  return store->skip;
+}
+
+void gx_store_count(struct gx_store *store, size_t *done, size_t *total)
+{
+  *done = atomic_load(&store->done);
+  *total = store->total;
+}
+
+/* Where the result of each case is. */
+struct places {
+  size_t count, found;
+  struct place {
+    uint64_t offset;
+    size_t journal; /* index + 1; 0: nowhere */
+  } * place;
+};
+
+static void note_place(void *context, size_t journal, size_t index, uint64_t offset)
+{
+  struct places *places = context;
+  if (index >= places->count || places->place[index].journal) return;
+  places->place[index] = (struct place){.offset = offset, .journal = journal + 1};
+  places->found++;
+}
+
+static int assemble_from(struct gx_store *store, struct gx_journals *journals, const struct places *places,
+                         const struct gx_store_run *run)
+{
+  struct gx_table *like = gx_study_table_begin(0, true);
+  if (!like) return gx_assembly_say(store->errors, NULL);
+  struct gx_assembly *assembly = gx_assembly_begin(store->directory, like, store->total, store->study->repeats, store->errors);
+  int failed = assembly ? 0 : -1;
+  for (size_t i = 0; i < store->study->count && !failed; i++) {
+    struct gx_result result;
+    if (!is_mine(store, i)) continue;
+    failed = gx_journals_result(journals, places->place[i].journal - 1, places->place[i].offset, &result);
+    if (failed) continue;
+    failed = gx_assembly_put(assembly, &store->study->cases[i], &result);
+    gx_case_free(&result);
+  }
+  struct gx_provenance provenance = gx_provenance_of(store->study);
+  if (store->shards) {
+    provenance.shard = store->shard;
+    provenance.shards = store->shards;
+    provenance.cases = store->study->count;
+    provenance.identity = store->whole;
+  }
+  if (assembly && gx_assembly_end(assembly, failed ? NULL : &provenance, run)) failed = -1;
+  gx_table_free(like);
+  return failed;
+}
+
+static int assemble(struct gx_store *store, const struct gx_store_run *run)
+{
+  struct places places = {.count = store->study->count};
+  struct gx_journals *journals = gx_journals_open(store->directory, store->identity, store->errors);
+  places.place = calloc(places.count + 1, sizeof *places.place);
+  int failed = !journals       ? -1
+               : !places.place ? gx_assembly_say(store->errors, NULL)
+                               : gx_journals_scan(journals, note_place, &places);
+  if (!failed && places.found < store->total) {
+    fprintf(store->errors, "%s: holds %zu of %zu cases: run it again with --resume\n", store->directory, places.found,
+            store->total);
     failed = -1;
   }
-  closedir(stream);
+  if (!failed) failed = assemble_from(store, journals, &places, run);
+  if (!failed) gx_journals_remove(journals);
+  gx_journals_close(journals);
+  free(places.place);
   return failed;
 }
 
-static int check_writable(const char *directory, FILE *errors)
+int gx_store_finish(struct gx_store *store, const struct gx_store_run *run)
 {
-  char *path = partial_path(directory, RUN);
-  int file = path ? open(path, O_WRONLY | O_CREAT, 0666) : -1;
-  int failed = file < 0 ? say(errors, path) : 0;
-  if (file >= 0) {
-    close(file);
-    unlink(path);
-  }
-  free(path);
+  if (store->finished) return 0;
+  int failed = gx_journal_close(store->journal);
+  store->journal = NULL;
+  return failed ? failed : assemble(store, run);
+}
+
+int gx_store_close(struct gx_store *store)
+{
+  if (!store) return 0;
+  int failed = gx_journal_close(store->journal);
+  if (store->lock >= 0) close(store->lock);
+  free(store->directory);
+  free(store->whole);
+  free(store->identity);
+  free(store->skip);
+  free(store);
   return failed;
-}
-
-/* mkdir -p */
-static int make_directory(const char *directory, FILE *errors)
-{
-  char *path = strdup(directory);
-  if (!path) return say(errors, NULL);
-  int failed = 0;
-  for (char *c = path + 1; !failed && path[0]; c++) {
-    bool last = !*c;
-    if (!last && *c != '/') continue;
-    *c = '\0';
-    if (mkdir(path, 0777) && errno != EEXIST) failed = say(errors, path);
-    if (last) break;
-    *c = '/';
-  }
-  free(path);
-  return failed;
-}
-
-int gx_store_prepare(const char *directory, FILE *errors)
-{
-  struct stat status;
-  if (make_directory(directory, errors)) return -1;
-  if (stat(directory, &status)) return say(errors, directory);
-  if (!S_ISDIR(status.st_mode)) {
-    fprintf(errors, "%s: is not a directory: name another place with -o\n", directory);
-    return -1;
-  }
-  char *study = path_in(directory, "", names[STUDY], "");
-  if (!study) return say(errors, NULL);
-  int failed = 0;
-  if (stat(study, &status)) {
-    failed = check_empty(directory, errors);
-  } else {
-    struct gx_table *old = gx_hdf5_read(study, errors);
-    if (!old) fprintf(errors, "%s: will not be overwritten: remove it, or name another directory with -o\n", study);
-    failed = old ? 0 : -1;
-    gx_table_free(old);
-  }
-  free(study);
-  return failed ? failed : check_writable(directory, errors);
-}
-
-static struct gx_table *timing_table(const struct gx_study *study, const struct gx_result *results)
-{
-  struct gx_table *full = gx_study_table(study, results, true);
-  struct gx_table *timing = full ? gx_table_create(4, study->count) : NULL;
-  int failed = !timing || gx_table_column(timing, 3, "repeats", "", GX_INTEGER);
-  const size_t from[] = {0, full ? full->columns - 2 : 0, full ? full->columns - 1 : 0};
-  const char *const name[] = {"case", "seconds", "ns_per_particle_step"};
-  const struct gx_value repeats = {.type = GX_INTEGER, .integer = (long)study->repeats};
-  for (size_t r = 0; r < study->count && !failed; r++) failed = gx_table_set(timing, r, 3, repeats);
-  for (size_t c = 0; c < 3 && !failed; c++)
-    failed = gx_table_copy(timing, c, full, from[c]) ||
-             gx_table_column(timing, c, name[c], full->column[from[c]].unit, full->column[from[c]].type);
-  gx_table_free(full);
-  if (!failed) return timing;
-  gx_table_free(timing);
-  return NULL;
-}
-
-static struct gx_table *run_table(const struct gx_store_run *run)
-{
-  char host[256] = "", date[32] = "";
-  time_t now = time(NULL);
-  struct tm utc;
-  gethostname(host, sizeof host - 1);
-  if (gmtime_r(&now, &utc)) strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", &utc);
-  const struct {
-    const char *name;
-    struct gx_value value;
-  } column[] = {{"host", {.type = GX_TEXT, .text = host}},
-                {"date", {.type = GX_TEXT, .text = date}},
-                {"command", {.type = GX_TEXT, .text = run->command}},
-                {"seconds", {.type = GX_REAL, .real = run->seconds}}};
-  struct gx_table *table = gx_table_create(4, 1);
-  int failed = !table;
-  for (size_t c = 0; c < 4 && !failed; c++)
-    failed = gx_table_column(table, c, column[c].name, "", column[c].value.type) || gx_table_set(table, 0, c, column[c].value);
-  if (!failed) return table;
-  gx_table_free(table);
-  return NULL;
-}
-
-static int write_text(const char *path, int which, const struct gx_table *table, FILE *errors)
-{
-  FILE *out = fopen(path, "wb");
-  if (!out) return say(errors, path);
-  if (which == RUN) {
-    gx_json_write_object(table, 0, out);
-    putc('\n', out);
-  } else {
-    gx_csv_write(table, out);
-  }
-  int failed = fflush(out) || ferror(out) ? say(errors, path) : 0;
-  if (fclose(out) && !failed) failed = say(errors, path);
-  return failed;
-}
-
-static int flush_to_disk(const char *path, FILE *errors)
-{
-  int file = open(path, O_RDONLY);
-  if (file < 0) return say(errors, path);
-  /* EINVAL: a file system that cannot; nothing more to be done there. */
-  int failed = fsync(file) && errno != EINVAL ? say(errors, path) : 0;
-  close(file);
-  return failed;
-}
-
-static int rename_all(const char *directory, FILE *errors)
-{
-  int failed = 0;
-  for (int f = 0; f < FILES && !failed; f++) {
-    char *from = partial_path(directory, f), *to = path_in(directory, "", names[f], "");
-    if (!from || !to)
-      failed = say(errors, NULL);
-    else if (rename(from, to))
-      failed = say(errors, to);
-    free(from);
-    free(to);
-  }
-  return failed ? failed : flush_to_disk(directory, errors);
-}
-
-static void remove_partials(const char *directory)
-{
-  for (int f = 0; f < FILES; f++) {
-    char *path = partial_path(directory, f);
-    if (path) unlink(path);
-    free(path);
-  }
 }
 
 int gx_store_write(const char *directory, const struct gx_study *study, const struct gx_result *results,
                    const struct gx_store_run *run, FILE *errors)
 {
-  struct gx_table *main_table = gx_study_table(study, results, false);
-  struct gx_table *table[FILES] = {main_table, main_table, timing_table(study, results), run_table(run)};
-  int failed = 0;
-  for (int f = 0; f < FILES && !failed; f++) {
-    char *path = partial_path(directory, f);
-    if (!path || !table[f])
-      failed = say(errors, NULL);
-    else if (f == STUDY)
-      failed = gx_hdf5_write(path, study, results, table[f], errors);
-    else
-      failed = write_text(path, f, table[f], errors);
-    if (!failed) failed = flush_to_disk(path, errors);
-    free(path);
-  }
-  if (!failed) failed = rename_all(directory, errors);
-  if (failed) remove_partials(directory);
-  gx_table_free(main_table);
-  gx_table_free(table[TIMING]);
-  gx_table_free(table[RUN]);
+  struct gx_table *like = gx_study_table_begin(0, true);
+  struct gx_assembly *assembly = like ? gx_assembly_begin(directory, like, study->count, study->repeats, errors) : NULL;
+  int failed = assembly ? 0 : like ? -1 : gx_assembly_say(errors, NULL);
+  for (size_t i = 0; i < study->count && !failed; i++) failed = gx_assembly_put(assembly, &study->cases[i], &results[i]);
+  const struct gx_provenance provenance = gx_provenance_of(study);
+  if (assembly && gx_assembly_end(assembly, failed ? NULL : &provenance, run)) failed = -1;
+  gx_table_free(like);
   return failed;
-}
-
-/* Whether a table has columns that only those who read it add. */
-static bool has_ours(const struct gx_table *table)
-{
-  static const char *const ours[] = {"study", "result.seconds", "result.ns_per_particle_step"};
-  for (size_t i = 0; i < sizeof ours / sizeof *ours; i++)
-    if (gx_table_find(table, ours[i]) >= 0) return true;
-  return false;
-}
-
-/* The same table with empty timing columns at its end. Frees the old one. */
-static struct gx_table *widen(struct gx_table *narrow)
-{
-  struct gx_table *wide = gx_table_create(narrow->columns + 2, narrow->rows);
-  int failed = !wide;
-  for (size_t c = 0; c < narrow->columns && !failed; c++) failed = gx_table_copy(wide, c, narrow, c);
-  if (!failed)
-    failed = gx_table_column(wide, wide->columns - 2, "result.seconds", "s", GX_REAL) ||
-             gx_table_column(wide, wide->columns - 1, "result.ns_per_particle_step", "ns", GX_REAL);
-  gx_table_free(narrow);
-  if (!failed) return wide;
-  gx_table_free(wide);
-  return NULL;
-}
-
-/* Timings are a comment on the table: a missing or foreign timing.csv leaves them null. Its rows stand in the order of the
- * table, so that the search starts where the last one ended. */
-static void read_timing(const char *path, struct gx_table *table)
-{
-  FILE *in = fopen(path, "rb");
-  long id_column = gx_table_find(table, "case");
-  char line[256], id[GX_ID_LENGTH];
-  size_t row = 0;
-  struct gx_value seconds = {.type = GX_REAL}, cost = {.type = GX_REAL};
-  while (in && id_column >= 0 && fgets(line, sizeof line, in)) {
-    if (sscanf(line, "%16[^,],%lf,%lf", id, &seconds.real, &cost.real) != 3) continue;
-    if (!isfinite(seconds.real) || !isfinite(cost.real)) continue;
-    for (size_t tried = 0; tried < table->rows; tried++, row = (row + 1) % table->rows) {
-      struct gx_value value = gx_table_get(table, row, (size_t)id_column);
-      if (value.type != GX_TEXT || strcmp(value.text, id)) continue;
-      gx_table_set(table, row, table->columns - 2, seconds);
-      gx_table_set(table, row, table->columns - 1, cost);
-      break;
-    }
-  }
-  if (in) fclose(in);
-}
-
-struct gx_table *gx_store_read(const char *directory, FILE *errors)
-{
-  char *study = path_in(directory, "", names[STUDY], ""), *timing = path_in(directory, "", names[TIMING], "");
-  struct gx_table *table = study && timing ? gx_hdf5_read(study, errors) : NULL;
-  if (table && has_ours(table)) {
-    fprintf(errors, "%s: its table is damaged\n", study);
-    gx_table_free(table);
-    table = NULL;
-  }
-  if (table && !(table = widen(table))) say(errors, NULL);
-  if (table) read_timing(timing, table);
-  free(study);
-  free(timing);
-  return table;
-}
-
-long gx_store_read_repeats(const char *directory)
-{
-  char *path = path_in(directory, "", names[TIMING], ""), line[256];
-  FILE *in = path ? fopen(path, "rb") : NULL;
-  long least = -1, repeats;
-  for (int row = 0; in && fgets(line, sizeof line, in); row++) {
-    if (!row) continue;
-    if (sscanf(line, "%*[^,],%*[^,],%*[^,],%ld", &repeats) != 1) repeats = 0;
-    if (least < 0 || repeats < least) least = repeats;
-  }
-  if (in) fclose(in);
-  free(path);
-  return least > 0 ? least : 0;
-}
-
-char *gx_store_read_title(const char *directory, FILE *errors)
-{
-  char *study = path_in(directory, "", names[STUDY], ""), *title = study ? gx_hdf5_read_title(study, errors) : NULL;
-  if (!study) say(errors, NULL);
-  free(study);
-  return title;
-}
-
-struct gx_table *gx_store_read_history(const char *directory, const char *id, const char *name, FILE *errors)
-{
-  char *study = path_in(directory, "", names[STUDY], "");
-  struct gx_table *history = study ? gx_hdf5_read_history(study, id, name, errors) : NULL;
-  if (!study) say(errors, NULL);
-  free(study);
-  return history;
-}
-
-static double real_at(const struct gx_table *table, size_t row, size_t column)
-{
-  struct gx_value value = gx_table_get(table, row, column);
-  return value.type == GX_REAL ? value.real : NAN;
-}
-
-static struct gx_value value_named(const struct gx_table *table, size_t row, const char *name)
-{
-  long column = gx_table_find(table, name);
-  return column < 0 ? (struct gx_value){.type = GX_NULL} : gx_table_get(table, row, (size_t)column);
-}
-
-/* Samples and bins of the rows of stored spectra, which must be whole samples of the same wavenumbers, in order. */
-static int measure_spectra(const struct gx_table *stored, struct gx_spectra *spectra)
-{
-  static const char *const names_of[] = {"time", "wavenumber", "displacement", "velocity", "stress"};
-  enum { COLUMNS = sizeof names_of / sizeof *names_of };
-  if (stored->columns != COLUMNS || !stored->rows) return -1;
-  for (size_t c = 0; c < COLUMNS; c++)
-    if (strcmp(stored->column[c].name, names_of[c])) return -1;
-  size_t bins = 1;
-  while (bins < stored->rows && real_at(stored, bins, 0) == real_at(stored, 0, 0)) bins++;
-  double spacing = bins > 1 ? real_at(stored, 1, 1) : 1;
-  for (size_t r = 0; r < stored->rows; r++) {
-    if (real_at(stored, r, 0) != real_at(stored, r - r % bins, 0)) return -1;
-    if (real_at(stored, r, 1) != (double)(r % bins) * spacing) return -1;
-    for (size_t c = 2; c < COLUMNS; c++)
-      if (real_at(stored, r, c) < 0) return -1; /* null: not a number */
-  }
-  *spectra = (struct gx_spectra){.samples = stored->rows / bins, .bins = bins, .spacing = spacing};
-  return stored->rows % bins ? -1 : 0;
-}
-
-/* Owned by the caller; NULL when memory runs out. */
-static struct gx_spectra *to_spectra(const struct gx_table *stored, const struct gx_spectra *shape)
-{
-  struct gx_spectra *spectra = calloc(1, sizeof *spectra);
-  if (!spectra) return NULL;
-  *spectra = *shape;
-  spectra->time = malloc(spectra->samples * sizeof(double));
-  spectra->rms = malloc(stored->rows * GX_QUANTITIES * sizeof(double));
-  if (!spectra->time || !spectra->rms) {
-    gx_store_free_spectra(spectra);
-    return NULL;
-  }
-  for (size_t r = 0; r < stored->rows; r++) {
-    size_t sample = r / spectra->bins, bin = r % spectra->bins;
-    spectra->time[sample] = real_at(stored, r, 0);
-    for (size_t q = 0; q < GX_QUANTITIES; q++)
-      spectra->rms[(sample * GX_QUANTITIES + q) * spectra->bins + bin] = real_at(stored, r, 2 + q);
-  }
-  return spectra;
-}
-
-struct gx_spectra *gx_store_read_spectra(const char *directory, const struct gx_table *table, size_t row, FILE *errors)
-{
-  struct gx_value id = value_named(table, row, "case"), mode = value_named(table, row, gx_parameters[GX_PROBLEM_MODE].path);
-  struct gx_value cells = value_named(table, row, gx_parameters[GX_MESH_CELLS].path);
-  char *path = path_in(directory, "", names[STUDY], "");
-  struct gx_table *stored = path && id.type == GX_TEXT ? gx_hdf5_read_spectra(path, id.text, errors) : NULL;
-  struct gx_spectra *spectra = NULL, shape;
-  if (!path)
-    say(errors, NULL);
-  else if (id.type != GX_TEXT || (stored && (cells.type != GX_INTEGER || measure_spectra(stored, &shape))))
-    fprintf(errors, "%s: the spectra of case %s are damaged\n", path, id.type == GX_TEXT ? id.text : "?");
-  else if (stored && !(spectra = to_spectra(stored, &shape)))
-    say(errors, NULL);
-  if (spectra) {
-    spectra->nyquist = 0.5 * (double)cells.integer;
-    spectra->driven = mode.type == GX_INTEGER ? (double)mode.integer : 1;
-  }
-  gx_table_free(stored);
-  free(path);
-  return spectra;
 }
 
 void gx_store_free_spectra(struct gx_spectra *spectra)

@@ -201,21 +201,35 @@ static struct gx_table *finish(struct cursor *at)
   return NULL;
 }
 
-struct gx_table *gx_study_table(const struct gx_study *study, const struct gx_result *results, bool timing)
+struct gx_table *gx_study_table_begin(size_t rows, bool timing)
 {
   static const struct gx_case no_case;
   static const struct gx_result no_result;
   struct cursor at = {0};
   put_case(&at, &no_case, &no_result, timing);
-  at = (struct cursor){.table = gx_table_create(at.column, study->count), .naming = true};
+  at = (struct cursor){.table = gx_table_create(at.column, rows), .naming = true};
   if (!at.table) return NULL;
   put_case(&at, &no_case, &no_result, timing);
-  at.naming = false;
-  for (at.row = 0; at.row < study->count; at.row++) {
-    at.column = 0;
-    put_case(&at, &study->cases[at.row], &results[at.row], timing);
-  }
   return finish(&at);
+}
+
+int gx_study_table_fill(struct gx_table *table, size_t row, const struct gx_case *one, const struct gx_result *result,
+                        bool timing)
+{
+  struct cursor at = {.table = table, .row = row};
+  put_case(&at, one, result, timing);
+  return at.failed;
+}
+
+struct gx_table *gx_study_table(const struct gx_study *study, const struct gx_result *results, bool timing)
+{
+  struct gx_table *table = gx_study_table_begin(study->count, timing);
+  int failed = 0;
+  for (size_t i = 0; table && i < study->count && !failed; i++)
+    failed = gx_study_table_fill(table, i, &study->cases[i], &results[i], timing);
+  if (!failed) return table;
+  gx_table_free(table);
+  return NULL;
 }
 
 static void put_row(struct cursor *at, const struct gx_history *history, const struct gx_sample *sample,

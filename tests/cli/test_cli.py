@@ -5,6 +5,7 @@ import io
 import json
 import os
 import pathlib
+import re
 import resource
 import signal
 import subprocess
@@ -195,14 +196,24 @@ class Run(Case):
                 self.assertEqual(done.returncode, 1, args)
                 self.assertIn(b"standard output", done.stderr)
 
-    def test_files_that_cannot_grow_leave_nothing(self):
-        def limit():
+    def test_files_that_cannot_grow_lose_nothing(self):
+        def limit(most):
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-            resource.setrlimit(resource.RLIMIT_FSIZE, (8192, 8192))
+            resource.setrlimit(resource.RLIMIT_FSIZE, (most, most))
 
-        err = self.call("run", "small.yaml", code=1, preexec_fn=limit).stderr
+        self.call("run", "small.yaml", "-o", "whole", "-q")
+        err = self.call("run", "small.yaml", code=1, preexec_fn=lambda: limit(8192)).stderr
+        self.assertIn(".journal-1.partial: File too large", err)
+        kept = int(re.search(r"(\d+) of 12 cases are done and kept", err)[1])
+        self.assertGreater(kept, 0)
+        err = self.call("run", "small.yaml", "--resume", code=1, preexec_fn=lambda: limit(65536)).stderr
+        self.assertIn(f"note: {kept} of 12", err)
         self.assertIn("study.h5.partial: cannot write: File too large", err)
-        self.assertEqual(list((self.dir / "small.study").iterdir()), [])
+        self.assertIn("12 of 12 cases are done and kept", err)
+        names = sorted(p.name for p in (self.dir / "small.study").iterdir())
+        self.assertTrue(names and all(re.fullmatch(r"\.journal-\d+\.partial", n) for n in names), names)
+        self.call("run", "small.yaml", "--resume")
+        self.assertEqual(self.study("small.study"), self.study("whole"))
 
     def test_a_closed_pipe_ends_quietly(self):
         read, write = os.pipe()

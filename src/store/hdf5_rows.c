@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reading study.h5 piece by piece. */
+#include "hdf5_rows.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "entry.h"
+#include "hdf5_read.h"
+
+struct gx_hdf5_rows {
+  const char *path;
+  FILE *errors;
+  struct gx_handle_silence silence;
+  hid_t file, group, text;
+  hid_t *dataset;        /* [like->columns], owned */
+  struct gx_table *like; /* owned: names, units and types of the columns */
+  size_t total, next;    /* rows */
+  struct gx_provenance provenance;
+  char *owned[GX_PROVENANCE_TEXTS + 1]; /* of the provenance */
+};
+
+static bool is_wanted(const char *member, size_t columns, const char *const *name)
+{
+  for (size_t i = 0; name && i < columns; i++)
+    if (!strcmp(name[i], member)) return true;
+  return !name;
+}
+
+static int open_column(struct gx_hdf5_rows *rows, const char *name)
+{
+  size_t c = rows->like->columns;
+  enum gx_type type;
+  hid_t dataset = H5Dopen2(rows->group, name, H5P_DEFAULT);
+  rows->dataset[c] = dataset;
+  hssize_t total = dataset < 0 ? -1 : gx_handle_shape(dataset, &type);
+  if (total < 0 || (c && (size_t)total != rows->total)) {
+    if (dataset >= 0) H5Dclose(dataset);
+    return -1;
+  }
+  char *unit = gx_handle_get_text(dataset, "unit");
+  rows->total = (size_t)total;
+  rows->like->columns++;
+  int failed = gx_table_column(rows->like, c, name, unit ? unit : "", type);
+  free(unit);
+  return failed;
+}
+
+static int open_columns(struct gx_hdf5_rows *rows, size_t columns, const char *const *name)
+{
+  H5G_info_t info;
+  if (rows->group < 0 || rows->text < 0 || H5Gget_info(rows->group, &info) < 0 || info.nlinks == 0) return -1;
+  rows->dataset = calloc(info.nlinks, sizeof *rows->dataset);
+  rows->like = gx_table_create(info.nlinks, 0);
+  if (!rows->dataset || !rows->like) return -1;
+  rows->like->columns = 0;
+  for (hsize_t i = 0; i < info.nlinks; i++) {
+    char member[GX_HANDLE_NAME];
+    if (!gx_handle_member(rows->group, i, member)) return -1;
+    if (is_wanted(member, columns, name) && open_column(rows, member)) return -1;
+  }
+  return 0;
+}
+
+struct gx_hdf5_rows *gx_hdf5_rows_begin(const char *path, size_t columns, const char *const *name, FILE *errors)
+{
+  struct gx_hdf5_rows *rows = calloc(1, sizeof *rows);
+  if (!rows) {
+    fprintf(errors, "%s: out of memory\n", path);
+    return NULL;
+  }
+  *rows = (struct gx_hdf5_rows){.path = path, .errors = errors, .silence = gx_handle_silence()};
+  rows->file = gx_hdf5_read_open(path, errors);
+  rows->group = rows->file < 0 ? -1 : gx_handle_open_group(rows->file, "table");
+  rows->text = gx_handle_text_type();
+  if (rows->file >= 0 && !open_columns(rows, columns, name)) return rows;
+  if (rows->file >= 0) fprintf(errors, "%s: its table is damaged\n", path);
+  gx_hdf5_rows_end(rows);
+  return NULL;
+}
+
+size_t gx_hdf5_rows_total(const struct gx_hdf5_rows *rows)
+{
+  return rows->total;
+}
+
+static int read_column(struct gx_hdf5_rows *rows, struct gx_table *table, size_t c, union gx_entry *entry)
+{
+  const enum gx_type type = rows->like->column[c].type;
+  const hid_t memory_type = type == GX_REAL ? H5T_NATIVE_DOUBLE : type == GX_INTEGER ? H5T_NATIVE_INT64 : rows->text;
+  hsize_t first[1] = {rows->next}, count[1] = {table->rows};
+  hid_t space = H5Dget_space(rows->dataset[c]), memory = H5Screate_simple(1, count, NULL);
+  int failed = gx_table_column(table, c, rows->like->column[c].name, rows->like->column[c].unit, type);
+  if (space < 0 || memory < 0 || H5Sselect_hyperslab(space, H5S_SELECT_SET, first, NULL, count, NULL) < 0) failed = -1;
+  if (!failed && H5Dread(rows->dataset[c], memory_type, memory, space, H5P_DEFAULT, entry) < 0) failed = -1;
+  if (!failed) {
+    for (size_t r = 0; r < table->rows && !failed; r++) failed = gx_table_set(table, r, c, gx_entry_value(type, entry[r]));
+    if (type == GX_TEXT) H5Dvlen_reclaim(rows->text, memory, H5P_DEFAULT, entry);
+  }
+  if (memory >= 0) H5Sclose(memory);
+  if (space >= 0) H5Sclose(space);
+  return failed;
+}
+
+struct gx_table *gx_hdf5_rows_next(struct gx_hdf5_rows *rows, size_t most, size_t more)
+{
+  size_t left = rows->total - rows->next, count = left < most ? left : most;
+  struct gx_table *table = gx_table_create(rows->like->columns + more, count);
+  union gx_entry *entry = calloc(count + 1, sizeof *entry);
+  int failed = !table || !entry;
+  for (size_t c = 0; c < rows->like->columns && !failed; c++) {
+    memset(entry, 0, count * sizeof *entry); /* what a damaged file leaves out */
+    failed = read_column(rows, table, c, entry);
+  }
+  if (failed) fprintf(rows->errors, "%s: its table is damaged\n", rows->path);
+  free(entry);
+  rows->next += count;
+  if (!failed) return table;
+  gx_table_free(table);
+  return NULL;
+}
+
+struct gx_table *gx_hdf5_rows_kept(struct gx_hdf5_rows *rows, enum gx_hdf5_kept what, const char *id, int *failed)
+{
+  const char *name = gx_hdf5_write_kept_name[what];
+  hid_t all = gx_handle_open_group(rows->file, name), group = all < 0 ? -1 : gx_handle_open_group(all, id);
+  struct gx_table *table = group < 0 ? NULL : gx_hdf5_read_group(group);
+  *failed = group >= 0 && !table ? -1 : 0;
+  if (*failed) fprintf(rows->errors, "%s: the %s of case %s are damaged\n", rows->path, name, id);
+  if (group >= 0) H5Gclose(group);
+  if (all >= 0) H5Gclose(all);
+  return table;
+}
+
+const struct gx_provenance *gx_hdf5_rows_provenance(struct gx_hdf5_rows *rows)
+{
+  struct gx_provenance *provenance = &rows->provenance;
+  hid_t group = gx_handle_open_group(rows->file, "provenance");
+  int failed = group < 0;
+  for (int i = 0; i < GX_PROVENANCE_TEXTS && !failed; i++) {
+    free(rows->owned[i]);
+    provenance->text[i] = rows->owned[i] = gx_handle_get_text(group, gx_provenance_name[i]);
+    failed = !rows->owned[i];
+  }
+  char **identity = &rows->owned[GX_PROVENANCE_TEXTS];
+  free(*identity);
+  *identity = !failed && H5Aexists(group, "identity") > 0 ? gx_handle_get_text(group, "identity") : NULL;
+  provenance->identity = *identity;
+  int64_t shard, shards, cases;
+  if (*identity && (gx_handle_get_integer(group, "shard", &shard) || gx_handle_get_integer(group, "shards", &shards) ||
+                    gx_handle_get_integer(group, "cases", &cases) || shard < 1 || shards < shard || cases < 0))
+    failed = -1;
+  if (*identity && !failed) {
+    provenance->shard = (size_t)shard;
+    provenance->shards = (size_t)shards;
+    provenance->cases = (size_t)cases;
+  }
+  if (group >= 0) H5Gclose(group);
+  if (!failed) return provenance;
+  fprintf(rows->errors, "%s: its provenance is damaged\n", rows->path);
+  return NULL;
+}
+
+void gx_hdf5_rows_end(struct gx_hdf5_rows *rows)
+{
+  if (!rows) return;
+  for (size_t c = 0; rows->like && c < rows->like->columns; c++) H5Dclose(rows->dataset[c]);
+  if (rows->text >= 0) H5Tclose(rows->text);
+  if (rows->group >= 0) H5Gclose(rows->group);
+  if (rows->file >= 0) H5Fclose(rows->file);
+  gx_handle_restore(rows->silence);
+  gx_table_free(rows->like);
+  for (int i = 0; i <= GX_PROVENANCE_TEXTS; i++) free(rows->owned[i]);
+  free(rows->dataset);
+  free(rows);
+}
