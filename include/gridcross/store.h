@@ -4,6 +4,7 @@
  *   table.csv   the same table
  *   timing.csv  case, seconds, ns_per_particle_step, repeats
  *   run.json    host, date, command, seconds
+ *   case-<id>.h5, .xmf, -grid.xmf   snapshots, see <gridcross/recorder.h>
  * Functions that return int give 0, or -1 after a message to `errors`. */
 #ifndef GRIDCROSS_STORE_H
 #define GRIDCROSS_STORE_H
@@ -69,6 +70,8 @@ struct gx_store *gx_store_open(const char *directory, const struct gx_study *stu
 /* [study->count] cases that are not to be run: they have a result, or belong to another shard. */
 const bool *gx_store_skip(const struct gx_store *store);
 struct gx_sink gx_store_sink(struct gx_store *store);
+/* Keeps what output.snapshots asks for, as <gridcross/recorder.h> says. */
+const struct gx_observer *gx_store_observer(const struct gx_store *store);
 /* Cases that have a result, and all that this run is about, without those of other shards. */
 void gx_store_count(struct gx_store *store, size_t *done, size_t *total);
 /* Puts the study together from all journals, in the order of its cases, and removes them. Nothing is lost when it fails. Once all

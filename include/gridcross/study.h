@@ -10,6 +10,7 @@
 #include <gridcross/frequency.h>
 #include <gridcross/measure.h>
 #include <gridcross/parameter.h>
+#include <gridcross/snapshot.h>
 #include <gridcross/spectrum.h>
 #include <gridcross/status.h>
 #include <gridcross/table.h>
@@ -95,11 +96,24 @@ struct gx_plan {
 
 /* Builds the case, so that it can fail for want of memory; once gx_status_quiet_gsl was called. */
 struct gx_plan gx_case_plan(const struct gx_case *one);
+/* Watches cases as they run. Called by any of the threads, by several at once for different cases. Where a call fails the case ends with
+ * the status cancelled. */
+struct gx_observer {
+  void *context;
+  /* A case that asks for snapshots begins. Returns what the other calls are given; NULL: it fails. */
+  void *(*begin)(void *context, const struct gx_case *one);
+  /* The start, every n-th step as output.snapshots says, and the last. Returns 0, or other than 0 when it fails. */
+  int (*show)(void *watched, const struct gx_snapshot *snapshot);
+  /* The case ends, before its result is told; whole: it has a result, whatever its status. Likewise. */
+  int (*end)(void *watched, bool whole);
+};
+
 /* What a case runs with; all is borrowed, and NULL where there is none. */
 struct gx_case_means {
   struct gx_team *team; /* its threads share out the particles of 2-D and 3-D cases; equal bits for any team */
   /* Looked at between steps: once true the case ends with the status cancelled, which is no result. */
   const atomic_bool *cancel;
+  const struct gx_observer *observer; /* of output.snapshots */
 };
 
 /* Runs one case; never aborts, once gx_status_quiet_gsl was called (gx_study_run does). */
@@ -135,6 +149,7 @@ struct gx_study_means {
   const struct gx_progress *progress; /* borrowed; NULL: none */
   const bool *skip;                   /* [count] cases that are not run, borrowed; NULL: none */
   atomic_bool *cancel;                /* set by anyone at any time to end early, borrowed; NULL: nobody does */
+  const struct gx_observer *observer; /* of output.snapshots, borrowed; NULL: nobody */
 };
 
 /* Runs every case. Equal bits for any number of threads. Keeps no result. Returns 0, or -1 when it was cancelled or the sink failed:

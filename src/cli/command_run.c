@@ -120,7 +120,8 @@ static int run_study(const struct gx_options *options, const struct gx_study *st
                                        .sink = gx_store_sink(store),
                                        .progress = &progress,
                                        .skip = gx_store_skip(store),
-                                       .cancel = &interrupt.cancel};
+                                       .cancel = &interrupt.cancel,
+                                       .observer = gx_store_observer(store)};
   int failed = gx_study_run(study, &means);
   gx_progress_end(&line);
   int code = !failed                          ? finish(options, study, store, directory, now() - start)

@@ -83,5 +83,10 @@ double gx_mesh_kinetic(const struct gx_space *space);
 void gx_mesh_append(struct gx_state *state, int count, double *const *array, size_t length);
 void gx_mesh_particle_acceleration(struct gx_space *space, double *const *a);
 void gx_mesh_field(const struct gx_space *space, enum gx_field which, size_t n, double *const *point, double *const *value);
+/* The same of any nodal field, [dim][grid.stored]. */
+void gx_mesh_field_at(const struct gx_mesh *mesh, double *const *field, size_t n, double *const *point, double *const *value);
+/* Integrals of the grid's functions over the domain, m^dim, those of GIMP as in gx_space_kind.field; zero at periodic images and where
+ * a function does not reach into the domain. volume: [grid.stored]. -1 when memory runs out. */
+int gx_mesh_volumes(const struct gx_mesh *mesh, double *volume);
 
 #endif

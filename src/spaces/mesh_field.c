@@ -3,10 +3,9 @@
 #include "mesh.h"
 
 /* In blocks, so that nothing is allocated. */
-void gx_mesh_field(const struct gx_space *space, enum gx_field which, size_t n, double *const *point, double *const *value)
+void gx_mesh_field_at(const struct gx_mesh *mesh, double *const *field, size_t n, double *const *point, double *const *value)
 {
   enum { BLOCK = 64 };
-  const struct gx_mesh *mesh = (const struct gx_mesh *)space;
   const int dim = mesh->grid.dim;
   int first[GX_MAX_DIM][BLOCK];
   double S[GX_MAX_DIM][GX_MAX_SUPPORT * BLOCK], D[GX_MAX_DIM][GX_MAX_SUPPORT * BLOCK], half[BLOCK];
@@ -23,6 +22,12 @@ void gx_mesh_field(const struct gx_space *space, enum gx_field which, size_t n, 
       out[d] = value[d] + from;
       mesh->options.basis->evaluate(&mesh->grid.axis[d], weights.n, point[d] + from, half, first[d], S[d], D[d]);
     }
-    gx_transfer_gather(&weights, which == GX_FIELD_VELOCITY ? mesh->v : mesh->a, out);
+    gx_transfer_gather(&weights, field, out);
   }
+}
+
+void gx_mesh_field(const struct gx_space *space, enum gx_field which, size_t n, double *const *point, double *const *value)
+{
+  const struct gx_mesh *mesh = (const struct gx_mesh *)space;
+  gx_mesh_field_at(mesh, which == GX_FIELD_VELOCITY ? mesh->v : mesh->a, n, point, value);
 }

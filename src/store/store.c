@@ -9,6 +9,8 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <gridcross/recorder.h>
+
 #include "assembly.h"
 #include "hdf5_rows.h"
 #include "journals.h"
@@ -25,6 +27,7 @@ struct gx_store {
   bool finished;          /* the directory holds the study already */
   int lock;               /* descriptor of the directory, -1: none */
   struct gx_journal *journal;
+  struct gx_recorder *recorder; /* of snapshots */
 };
 
 static bool is_mine(const struct gx_store *store, size_t index)
@@ -84,6 +87,13 @@ static char *identity_there(const struct gx_store *store)
   return both;
 }
 
+/* A case is done when its snapshots are there too: they come before its result, but may have been removed. */
+static bool lacks_snapshots(const struct gx_store *store, size_t index)
+{
+  const struct gx_case *one = &store->study->cases[index];
+  return one->value[GX_OUTPUT_SNAPSHOTS].type == GX_INTEGER && !gx_recorder_has(store->directory, one->id);
+}
+
 /* Nothing was under way: the study that is there is this one, or --resume was not meant for it. */
 static int take_finished(struct gx_store *store)
 {
@@ -100,8 +110,13 @@ static int take_finished(struct gx_store *store)
     fputs(": name another directory with -o, or leave out --resume to replace it\n", store->errors);
   }
   free(there);
-  for (size_t i = 0; i < store->study->count && store->finished; i++) store->skip[i] = true;
-  if (store->finished) store->done = store->total;
+  for (size_t i = 0; i < store->study->count && store->finished; i++) {
+    store->done += !store->skip[i];
+    store->skip[i] = true;
+    if (!is_mine(store, i) || !lacks_snapshots(store, i)) continue;
+    store->skip[i] = false; /* for its snapshots alone */
+    store->done--;
+  }
   return store->finished ? 0 : -1;
 }
 
@@ -109,7 +124,7 @@ static void mark(void *context, size_t journal, size_t index, uint64_t offset)
 {
   struct gx_store *store = context;
   (void)journal, (void)offset;
-  if (index >= store->study->count || store->skip[index]) return;
+  if (index >= store->study->count || store->skip[index] || lacks_snapshots(store, index)) return;
   store->skip[index] = true;
   store->done++;
 }
@@ -117,7 +132,8 @@ static void mark(void *context, size_t journal, size_t index, uint64_t offset)
 static int begin(struct gx_store *store, const struct gx_store_how *how)
 {
   store->skip = calloc(store->study->count + 1, sizeof *store->skip);
-  if (!store->directory || !store->skip) return gx_assembly_say(store->errors, NULL);
+  store->recorder = gx_recorder_create(store->directory, store->errors);
+  if (!store->directory || !store->skip || !store->recorder) return gx_assembly_say(store->errors, NULL);
   if (identify(store)) return -1;
   for (size_t i = 0; i < store->study->count; i++) {
     store->total += is_mine(store, i);
@@ -158,7 +174,7 @@ struct gx_store *gx_store_open(const char *directory, const struct gx_study *stu
 static int put(void *context, size_t index, struct gx_result *result)
 {
   struct gx_store *store = context;
-  if (gx_journal_append(store->journal, index, result)) return -1;
+  if (!store->finished && gx_journal_append(store->journal, index, result)) return -1;
   atomic_fetch_add(&store->done, 1);
   return 0;
 }
@@ -166,6 +182,11 @@ static int put(void *context, size_t index, struct gx_result *result)
 struct gx_sink gx_store_sink(struct gx_store *store)
 {
   return (struct gx_sink){.context = store, .done = put};
+}
+
+const struct gx_observer *gx_store_observer(const struct gx_store *store)
+{
+  return gx_recorder_observer(store->recorder);
 }
 
 const bool *gx_store_skip(const struct gx_store *store)
@@ -238,6 +259,7 @@ static int assemble(struct gx_store *store, const struct gx_store_run *run)
   }
   if (!failed) failed = assemble_from(store, journals, &places, run);
   if (!failed) gx_journals_remove(journals);
+  if (!failed) failed = gx_recorder_tidy(store->directory, store->study, store->errors);
   gx_journals_close(journals);
   free(places.place);
   return failed;
@@ -256,6 +278,7 @@ int gx_store_close(struct gx_store *store)
   if (!store) return 0;
   int failed = gx_journal_close(store->journal);
   if (store->lock >= 0) close(store->lock);
+  gx_recorder_free(store->recorder);
   free(store->directory);
   free(store->whole);
   free(store->identity);
@@ -274,7 +297,7 @@ int gx_store_write(const char *directory, const struct gx_study *study, const st
   const struct gx_provenance provenance = gx_provenance_of(study);
   if (assembly && gx_assembly_end(assembly, failed ? NULL : &provenance, run)) failed = -1;
   gx_table_free(like);
-  return failed;
+  return failed ? failed : gx_recorder_tidy(directory, study, errors);
 }
 
 void gx_store_free_spectra(struct gx_spectra *spectra)

@@ -9,6 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <gridcross/recorder.h>
+
 #include "assembly.h"
 
 /* Only what an interrupted run leaves: nothing, or partial files. */
@@ -20,7 +22,8 @@ static int check_empty(const char *directory, FILE *errors)
   for (struct dirent *entry; !failed && (entry = readdir(stream));) {
     size_t n = strlen(entry->d_name);
     bool ours = !strcmp(entry->d_name, ".") || !strcmp(entry->d_name, "..") ||
-                (n > 8 && entry->d_name[0] == '.' && !strcmp(entry->d_name + n - 8, ".partial"));
+                (n > 8 && entry->d_name[0] == '.' && !strcmp(entry->d_name + n - 8, ".partial")) ||
+                gx_recorder_owns(entry->d_name);
     if (ours) continue;
     fprintf(errors, "%s: is neither a study nor empty (it holds %s): name another directory with -o\n", directory, entry->d_name);
     failed = -1;

@@ -15,6 +15,7 @@
 #include "simulation_plan.h"
 #include "stability.h"
 #include "stable_dt.h"
+#include "watch.h"
 
 struct run {
   struct gx_case_means means;
@@ -29,6 +30,7 @@ struct run {
   double spectra_every;
   double frequency_every;
   double budget_every;
+  struct gx_watch watch;
   struct gx_spectrum *spectrum;
   struct gx_restitution *restitution; /* NULL: there are no two bodies */
   struct gx_frequency frequency;
@@ -37,7 +39,7 @@ struct run {
   double kinetic_limit;   /* J */
   double samples, timed;  /* taken; of those after the first few, whose cost was read from the clock */
   double timed_seconds;   /* of processor time */
-  double observing;       /* s of it for the first few samples, jumps, spectra, frequency and budgets */
+  double observing;       /* s of it for the first few samples, jumps, spectra, frequency, budgets and snapshots */
 };
 
 static bool is_cancelled(const struct gx_case_means *means)
@@ -172,6 +174,8 @@ static enum gx_status prepare(struct run *run, const struct gx_case *one, double
     return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the restitution");
   if (run->history_every > 0 || run->budget_every > 0) GX_TRY(prepare_history(run));
   if (run->spectra_every > 0) GX_TRY(prepare_spectra(run));
+  GX_TRY(gx_watch_refuse(simulation, one, outcome));
+  GX_TRY(gx_watch_begin(&run->watch, simulation, one, run->measure, run->means.observer, outcome));
   run->frequency.interval = run->frequency_every * simulation->dt;
   double m = 0, c = simulation->posed->speed;
   for (size_t p = 0; p < simulation->particles->n; p++) m += simulation->particles->m[p];
@@ -209,6 +213,14 @@ static void take_spectrum(struct run *run)
   run->observing += seconds_now(run) - before;
 }
 
+static enum gx_status show(struct run *run, double step)
+{
+  double before = seconds_now(run);
+  enum gx_status status = gx_watch_show(&run->watch, step, run->time, run->simulation.dt, &run->result->outcome);
+  run->observing += seconds_now(run) - before;
+  return status;
+}
+
 /* The step that ends there, whose budget was taken. */
 static bool is_budgeted(const struct run *run, double step)
 {
@@ -235,7 +247,8 @@ static enum gx_status take_sample(struct run *run, double step)
   bool last = step == simulation->steps;
   bool kept = is_due(run->history_every, step) || (last && run->history_every > 0) || is_budgeted(run, step);
   bool transformed = is_due(run->spectra_every, step) || (last && run->spectra_every > 0);
-  if (run->level == GX_MEASURE_FINAL && !last && !kept && !transformed) return GX_OK;
+  bool shown = gx_watch_is_due(&run->watch, step, last);
+  if (run->level == GX_MEASURE_FINAL && !last && !kept && !transformed && !shown) return GX_OK;
   bool reused = gx_stepper_starts_accelerated(run->stepper); /* by the next step: not a cost of measuring */
   bool timed = is_timed(run->samples), first = run->samples++ < FIRST_SAMPLES;
   if (reused) GX_TRY(gx_stepper_accelerate(run->stepper, run->time));
@@ -248,7 +261,7 @@ static enum gx_status take_sample(struct run *run, double step)
   if (kept && history->budget) history->budget[history->samples] = run->budgeted;
   if (kept) history->sample[history->samples++] = gx_measure_result(run->measure)->last;
   if (transformed) take_spectrum(run);
-  return GX_OK;
+  return shown ? show(run, step) : GX_OK;
 }
 
 static void sample_frequency(struct run *run, double step)
@@ -335,6 +348,7 @@ static enum gx_status march(struct run *run)
 
 static void finish(struct run *run)
 {
+  gx_watch_end(&run->watch, &run->result->outcome);
   gx_stepper_free(run->stepper);
   gx_measure_free(run->measure);
   gx_spectrum_free(run->spectrum);
@@ -351,7 +365,7 @@ static struct gx_case without_measures(const struct gx_case *one)
   bare.value[GX_OUTPUT_PROBE].type = bare.value[GX_OUTPUT_JUMPS].type = GX_NULL;
   bare.value[GX_OUTPUT_SPECTRA].integer = 0;
   bare.value[GX_OUTPUT_FREQUENCY].integer = 0;
-  bare.value[GX_OUTPUT_BUDGET].type = GX_NULL;
+  bare.value[GX_OUTPUT_BUDGET].type = bare.value[GX_OUTPUT_SNAPSHOTS].type = GX_NULL;
   return bare;
 }
 
@@ -448,7 +462,8 @@ struct gx_plan gx_case_plan(const struct gx_case *one)
 {
   struct gx_plan plan = {.outcome = {.status = GX_OK, .particle = -1}, .stable_dt = NAN, .growth = NAN};
   struct gx_simulation simulation;
-  if (gx_simulation_plan(&simulation, one, &plan.outcome) == GX_OK && gx_simulation_build(&simulation, &plan.outcome) == GX_OK) {
+  if (gx_simulation_plan(&simulation, one, &plan.outcome) == GX_OK && gx_simulation_build(&simulation, &plan.outcome) == GX_OK &&
+      gx_watch_refuse(&simulation, one, &plan.outcome) == GX_OK) {
     plan.particles = (double)simulation.particles->n;
     plan.stable_dt = gx_stable_dt(one, false, NULL);
     if (!simulation.space->through_cells)

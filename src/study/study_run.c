@@ -54,11 +54,8 @@ static bool run_one(struct pool *pool, size_t index, const struct gx_case_means 
   const struct gx_case *one = &pool->study->cases[index];
   struct gx_result result = gx_case_run_by(one, means);
   gx_case_time(one, means, pool->study->repeats, &result);
-  bool whole = result.outcome.status != GX_CANCELLED;
-  if (whole && pool->means->sink.done(pool->means->sink.context, index, &result)) {
-    atomic_store(pool->cancel, true);
-    whole = false;
-  }
+  bool whole = result.outcome.status != GX_CANCELLED && !pool->means->sink.done(pool->means->sink.context, index, &result);
+  if (!whole) atomic_store(pool->cancel, true); /* also where an observer failed */
   gx_case_free(&result);
   return whole;
 }
@@ -69,7 +66,7 @@ static void *work(void *argument)
   struct pool *pool = self->pool;
   const struct gx_progress *progress = pool->means->progress;
   struct gx_team *team = gx_team_create(self->threads);
-  const struct gx_case_means means = {.team = team, .cancel = pool->cancel};
+  const struct gx_case_means means = {.team = team, .cancel = pool->cancel, .observer = pool->means->observer};
   size_t index;
   pthread_mutex_lock(&pool->lock);
   while (take(pool, &index)) {

@@ -1,0 +1,285 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Files of snapshots: their names, and how they come and go. */
+#include <gridcross/recorder.h>
+
+#include <dirent.h>
+#include <errno.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "openpmd.h"
+#include "xdmf.h"
+
+enum { XMF, GRID, H5, FILES, NAME = 64 };
+
+static const char *const endings[FILES] = {[XMF] = ".xmf", [GRID] = "-grid.xmf", [H5] = ".h5"};
+static const char *const partial = ".partial";
+
+struct gx_recorder {
+  const char *directory;
+  FILE *errors;
+  pthread_mutex_t lock; /* HDF5 is not thread-safe */
+  struct gx_observer observer;
+};
+
+/* A case under way. */
+struct recording {
+  struct gx_recorder *recorder;
+  char id[GX_ID_LENGTH];
+  struct gx_openpmd *file; /* NULL: closed, or it could not be made */
+  FILE *xdmf[GX_XDMF_KINDS];
+  bool failed;
+};
+
+static int say(FILE *errors, const char *path)
+{
+  fprintf(errors, "%s: %s\n", path ? path : "snapshots", !path ? "out of memory" : errno ? strerror(errno) : "HDF5 failed");
+  return -1;
+}
+
+/* DIRECTORY/case-<id><ending>, or its hidden name; owned by the caller */
+static char *path_of(const char *directory, const char *id, int file, bool hidden)
+{
+  size_t room = strlen(directory) + strlen(id) + 40;
+  char *path = malloc(room);
+  if (path) snprintf(path, room, "%s/%scase-%s%s%s", directory, hidden ? "." : "", id, endings[file], hidden ? partial : "");
+  return path;
+}
+
+static void begin_files(struct recording *recording)
+{
+  struct gx_recorder *recorder = recording->recorder;
+  for (int f = 0; f < FILES && !recording->failed; f++) {
+    char *path = path_of(recorder->directory, recording->id, f, true);
+    errno = 0;
+    if (f == H5) {
+      pthread_mutex_lock(&recorder->lock);
+      recording->file = path ? gx_openpmd_create(path, recording->id) : NULL;
+      pthread_mutex_unlock(&recorder->lock);
+      recording->failed = !recording->file;
+    } else {
+      recording->xdmf[f] = path ? fopen(path, "wb") : NULL;
+      recording->failed = !recording->xdmf[f];
+      if (recording->xdmf[f]) gx_xdmf_begin(recording->xdmf[f]);
+    }
+    if (recording->failed) say(recorder->errors, path);
+    free(path);
+  }
+}
+
+static void remove_files(const struct recording *recording)
+{
+  for (int f = 0; f < FILES; f++) {
+    char *path = path_of(recording->recorder->directory, recording->id, f, true);
+    if (path) unlink(path);
+    free(path);
+  }
+}
+
+/* Closes what is open. */
+static int close_files(struct recording *recording)
+{
+  struct gx_recorder *recorder = recording->recorder;
+  for (int f = XMF; f <= GRID; f++) {
+    if (!recording->xdmf[f]) continue;
+    gx_xdmf_end(recording->xdmf[f]);
+    recording->failed |= ferror(recording->xdmf[f]) != 0;
+    if (fclose(recording->xdmf[f])) recording->failed = true;
+    recording->xdmf[f] = NULL;
+  }
+  pthread_mutex_lock(&recorder->lock);
+  if (recording->file && gx_openpmd_close(recording->file)) recording->failed = true;
+  pthread_mutex_unlock(&recorder->lock);
+  recording->file = NULL;
+  return recording->failed ? -1 : 0;
+}
+
+static void *begin(void *context, const struct gx_case *one)
+{
+  struct recording *recording = calloc(1, sizeof *recording);
+  struct gx_recorder *recorder = context;
+  if (!recording) {
+    say(recorder->errors, NULL);
+    return NULL;
+  }
+  recording->recorder = recorder;
+  memcpy(recording->id, one->id, sizeof recording->id);
+  begin_files(recording);
+  if (!recording->failed) return recording;
+  close_files(recording);
+  remove_files(recording);
+  free(recording);
+  return NULL;
+}
+
+static int show(void *watched, const struct gx_snapshot *snapshot)
+{
+  struct recording *recording = watched;
+  struct gx_recorder *recorder = recording->recorder;
+  char name[NAME];
+  snprintf(name, sizeof name, "case-%s%s", recording->id, endings[H5]);
+  if (!snapshot->vertices.n && recording->xdmf[GRID]) { /* there is no grid to describe */
+    char *path = path_of(recorder->directory, recording->id, GRID, true);
+    fclose(recording->xdmf[GRID]);
+    recording->xdmf[GRID] = NULL;
+    if (path) unlink(path);
+    free(path);
+  }
+  gx_xdmf_put(recording->xdmf[XMF], name, GX_XDMF_PARTICLES, snapshot);
+  if (recording->xdmf[GRID]) gx_xdmf_put(recording->xdmf[GRID], name, GX_XDMF_VERTICES, snapshot);
+  errno = 0;
+  pthread_mutex_lock(&recorder->lock);
+  recording->failed |= gx_openpmd_put(recording->file, snapshot) != 0;
+  pthread_mutex_unlock(&recorder->lock);
+  if (!recording->failed) return 0;
+  char *path = path_of(recorder->directory, recording->id, H5, false);
+  say(recorder->errors, path);
+  free(path);
+  return -1;
+}
+
+/* The hidden file takes its name; one that is not there need not. */
+static int publish(const char *directory, const char *id, int file, FILE *errors)
+{
+  char *from = path_of(directory, id, file, true), *to = path_of(directory, id, file, false);
+  int failed = 0;
+  errno = 0;
+  if (!from || !to)
+    failed = say(errors, NULL);
+  else if (rename(from, to) && (file != GRID || errno != ENOENT))
+    failed = say(errors, to);
+  free(from);
+  free(to);
+  return failed;
+}
+
+static int end(void *watched, bool whole)
+{
+  struct recording *recording = watched;
+  const struct gx_recorder *recorder = recording->recorder;
+  bool said = recording->failed;
+  errno = 0;
+  int failed = close_files(recording);
+  if (failed && !said) {
+    char *path = path_of(recorder->directory, recording->id, H5, false);
+    say(recorder->errors, path);
+    free(path);
+  }
+  for (int f = 0; f < FILES && whole && !failed; f++) failed = publish(recorder->directory, recording->id, f, recorder->errors);
+  if (!whole || failed) remove_files(recording);
+  free(recording);
+  return failed;
+}
+
+struct gx_recorder *gx_recorder_create(const char *directory, FILE *errors)
+{
+  struct gx_recorder *recorder = calloc(1, sizeof *recorder);
+  if (!recorder) return NULL;
+  recorder->directory = directory;
+  recorder->errors = errors;
+  recorder->observer = (struct gx_observer){recorder, begin, show, end};
+  pthread_mutex_init(&recorder->lock, NULL);
+  return recorder;
+}
+
+void gx_recorder_free(struct gx_recorder *recorder)
+{
+  if (!recorder) return;
+  pthread_mutex_destroy(&recorder->lock);
+  free(recorder);
+}
+
+const struct gx_observer *gx_recorder_observer(const struct gx_recorder *recorder)
+{
+  return &recorder->observer;
+}
+
+bool gx_recorder_has(const char *directory, const char *id)
+{
+  char *path = path_of(directory, id, H5, false);
+  bool is_there = path && !access(path, F_OK);
+  free(path);
+  return is_there;
+}
+
+/* The id in a name of ours. */
+static bool split_name(const char *name, char id[GX_ID_LENGTH], bool *hidden)
+{
+  *hidden = *name == '.';
+  name += *hidden;
+  if (strncmp(name, "case-", 5) || strspn(name + 5, "0123456789abcdef") != GX_ID_LENGTH - 1) return false;
+  memcpy(id, name + 5, GX_ID_LENGTH - 1);
+  id[GX_ID_LENGTH - 1] = '\0';
+  const char *rest = name + 5 + GX_ID_LENGTH - 1;
+  for (int f = 0; f < FILES; f++) {
+    size_t length = strlen(endings[f]);
+    if (!strncmp(rest, endings[f], length) && !strcmp(rest + length, *hidden ? partial : "")) return true;
+  }
+  return false;
+}
+
+bool gx_recorder_owns(const char *name)
+{
+  char id[GX_ID_LENGTH];
+  bool hidden;
+  return split_name(name, id, &hidden);
+}
+
+static int copy_file(const char *from, const char *to, FILE *errors)
+{
+  char piece[1 << 16];
+  FILE *in = fopen(from, "rb"), *out = in ? fopen(to, "wb") : NULL;
+  int failed = !in ? say(errors, from) : !out ? say(errors, to) : 0;
+  for (size_t n; !failed && (n = fread(piece, 1, sizeof piece, in)) > 0;)
+    if (fwrite(piece, 1, n, out) != n) failed = say(errors, to);
+  if (!failed && ferror(in)) failed = say(errors, from);
+  if (in) fclose(in);
+  if (out && fclose(out) && !failed) failed = say(errors, to);
+  return failed;
+}
+
+int gx_recorder_copy(const char *from, const char *to, const char *id, FILE *errors)
+{
+  int failed = 0;
+  for (int f = 0; f < FILES && !failed; f++) {
+    char *source = path_of(from, id, f, false), *hidden = path_of(to, id, f, true);
+    if (!source || !hidden)
+      failed = say(errors, NULL);
+    else if (f != GRID || !access(source, F_OK))
+      failed = copy_file(source, hidden, errors);
+    if (!failed) failed = publish(to, id, f, errors);
+    if (failed && hidden) unlink(hidden);
+    free(source);
+    free(hidden);
+  }
+  return failed;
+}
+
+static int compare_ids(const void *a, const void *b)
+{
+  return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+int gx_recorder_tidy(const char *directory, const struct gx_study *study, FILE *errors)
+{
+  const char **ids = malloc((study->count + 1) * sizeof *ids);
+  DIR *stream = ids ? opendir(directory) : NULL;
+  int failed = stream ? 0 : say(errors, ids ? directory : NULL);
+  size_t count = 0;
+  for (size_t i = 0; i < study->count && ids; i++)
+    if (study->cases[i].value[GX_OUTPUT_SNAPSHOTS].type == GX_INTEGER) ids[count++] = study->cases[i].id;
+  if (ids) qsort(ids, count, sizeof *ids, compare_ids);
+  for (struct dirent *entry; !failed && (entry = readdir(stream));) {
+    char id[GX_ID_LENGTH];
+    const char *key = id;
+    bool hidden;
+    if (!split_name(entry->d_name, id, &hidden)) continue;
+    if (!hidden && bsearch(&key, ids, count, sizeof *ids, compare_ids)) continue;
+    if (unlinkat(dirfd(stream), entry->d_name, 0)) failed = say(errors, entry->d_name);
+  }
+  if (stream) closedir(stream);
+  free(ids);
+  return failed;
+}
