@@ -70,11 +70,12 @@ static char *identity_there(const struct gx_store *store)
   } else if (provenance) {
     struct gx_provenance_sum cases = {0};
     struct gx_table *table = NULL;
-    for (size_t left = gx_hdf5_rows_total(rows); left && (table = gx_hdf5_rows_next(rows, 4096, 0)); left -= table->rows) {
+    for (size_t left = gx_hdf5_rows_total(rows); left && (table = gx_hdf5_rows_next(rows, 4096, 0));) {
       for (size_t r = 0; r < table->rows; r++) {
         struct gx_value id = gx_table_get(table, r, 0);
         if (id.type == GX_TEXT) gx_provenance_add(&cases, id.text, strlen(id.text));
       }
+      left -= table->rows;
       gx_table_free(table);
     }
     identity = gx_provenance_identity(provenance, &cases, (size_t)gx_store_read_repeats(store->directory));

@@ -151,6 +151,29 @@ static void test_a_failing_observer_cancels(void **unused)
   free(seen.u);
 }
 
+static int count(void *context, size_t index, struct gx_result *result)
+{
+  (void)index, (void)result;
+  ++*(int *)context;
+  return 0;
+}
+
+static void test_a_failing_observer_ends_a_study(void **unused)
+{
+  (void)unused;
+  struct gx_study *study =
+      gx_runfile_parse("test", "mesh: {cells: [4, 5, 6]}\nproblem: {name: bar-neo-hookean}\noutput: {snapshots: 1}\n", stderr);
+  struct seen seen = {.fail_at = 2};
+  int told = 0;
+  const struct gx_observer observer = {&seen, begin, show, end};
+  const struct gx_study_means means = {.threads = 1, .sink = {&told, count}, .observer = &observer};
+  assert_int_equal(gx_study_run(study, &means), -1);
+  assert_int_equal(told, 0);
+  assert_int_equal(seen.ended, 1);
+  gx_runfile_free(study);
+  free(seen.u);
+}
+
 static void test_absurd_sizes_are_refused(void **unused)
 {
   (void)unused;
@@ -303,7 +326,7 @@ static void test_tidying_keeps_the_study_s_own(void **state)
   struct gx_case one = case_of("mesh.cells=8", "output.snapshots=1", "time.steps=2");
   record(&one, first_id, directory);
   record(&one, second_id, directory);
-  static const char *const others[] = {".case-0123456789abcdef.h5.partial", "mine.h5", "case-0123456789abcdef.png"};
+  static const char *const others[] = {".case-fedcba9876543210.h5.partial", "mine.h5", "case-0123456789abcdef.png"};
   for (int i = 0; i < 3; i++) {
     char path[128];
     snprintf(path, sizeof path, "%s/%s", directory, others[i]);
@@ -322,6 +345,20 @@ static void test_tidying_keeps_the_study_s_own(void **state)
   }
 }
 
+/* All that a file says it has; it may be damaged. */
+static void read_all(const char *directory, const char *id, FILE *quiet)
+{
+  static const char *const names[] = {"position", "velocity", "cauchy_stress", "mass", "density"};
+  struct gx_series *series = gx_series_open(directory, id, quiet);
+  for (size_t i = 0; series && i < series->count; i++)
+    for (int set = 0; set < GX_SERIES_SETS; set++)
+      for (size_t r = 0; r < sizeof names / sizeof *names; r++) {
+        gx_series_offset(series, i, (enum gx_series_set)set, names[r]);
+        free(gx_series_read(series, i, (enum gx_series_set)set, names[r], 0, quiet));
+      }
+  gx_series_close(series);
+}
+
 static void test_damaged_files_are_refused(void **state)
 {
   struct gx_case one = case_of("mesh.cells=4", "output.snapshots=1", "time.steps=1");
@@ -336,6 +373,14 @@ static void test_damaged_files_are_refused(void **state)
     fclose(out);
     assert_null(gx_series_open(*state, second_id, quiet));
   }
+  for (size_t at = 0; at < length; at += 41) {
+    bytes[at] = (char)~bytes[at];
+    FILE *out = fopen(path, "wb");
+    assert_int_equal(fwrite(bytes, 1, length, out), length);
+    fclose(out);
+    bytes[at] = (char)~bytes[at];
+    read_all(*state, second_id, quiet);
+  }
   fclose(quiet);
   free(bytes);
 }
@@ -345,6 +390,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_snapshots_hold_what_a_run_has),
       cmocka_unit_test(test_a_failing_observer_cancels),
+      cmocka_unit_test(test_a_failing_observer_ends_a_study),
       cmocka_unit_test(test_absurd_sizes_are_refused),
       cmocka_unit_test_setup_teardown(test_files_give_back_what_was_shown, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_equal_cases_give_equal_bytes, set_up, tear_down),
