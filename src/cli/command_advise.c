@@ -87,6 +87,12 @@ static int run(const struct gx_options *options)
   return code;
 }
 
+static const struct gx_example example[] = {
+    {"gridcross advise choice.study --error 1e-3 --error 1e-6", "the cheapest case for each, as a run file, and why"},
+    {"gridcross advise choice.study --error 1e-6 --yaml > best.yaml", "to run it again"},
+    {0},
+};
+
 const struct gx_command gx_command_advise = {
     .name = "advise",
     .operands = "DIR...",
@@ -94,5 +100,6 @@ const struct gx_command gx_command_advise = {
     .most = -1,
     .help = "Find the cheapest cases of studies that meet an error, the error-cost front, and why.",
     .option = option,
+    .example = example,
     .run = run,
 };

@@ -89,13 +89,18 @@ static int run(const struct gx_options *options)
   return code;
 }
 
+static const struct gx_example example[] = {
+    {"gridcross balance runs/balance.yaml", "where a smaller step no longer pays"},
+    {0},
+};
+
 const struct gx_command gx_command_balance = {
     .name = "balance",
     .operands = "FILE.yaml",
     .least = 1,
     .most = 1,
     .help = "Fit space and time errors of one step over mesh.cells and time.dt, and find the step where they meet.",
-    .example = "gridcross balance runs/balance.yaml",
     .option = option,
+    .example = example,
     .run = run,
 };

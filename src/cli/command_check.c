@@ -117,6 +117,12 @@ static int run(const struct gx_options *options)
   return failed ? gx_command_no_memory() : GX_EXIT_DONE;
 }
 
+static const struct gx_example example[] = {
+    {"gridcross check my.yaml", "the cases, their steps, and the stable step of each"},
+    {"gridcross init bar-linear | gridcross check -", "a run file from standard input"},
+    {0},
+};
+
 const struct gx_command gx_command_check = {
     .name = "check",
     .operands = "FILE.yaml",
@@ -124,5 +130,6 @@ const struct gx_command gx_command_check = {
     .most = 1,
     .help = "Check a run file (-: standard input) and print its cases with time step, steps and stable time step; run nothing.",
     .option = option,
+    .example = example,
     .run = run,
 };

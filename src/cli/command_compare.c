@@ -67,6 +67,13 @@ static int run(const struct gx_options *options)
   return code;
 }
 
+static const struct gx_example example[] = {
+    {"gridcross compare quickstart.study", "error by mesh.cells, methods side by side, orders between rows"},
+    {"gridcross compare quickstart.study --rows method.degree --value result.energy.drift", "another question to the same study"},
+    {"gridcross compare old.study new.study --where method.space=standard", "the same cases of two studies"},
+    {0},
+};
+
 const struct gx_command gx_command_compare = {
     .name = "compare",
     .operands = "DIR...",
@@ -74,5 +81,6 @@ const struct gx_command gx_command_compare = {
     .most = -1,
     .help = "Show studies side by side, with observed orders between rows that refine.",
     .option = option,
+    .example = example,
     .run = run,
 };

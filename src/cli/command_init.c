@@ -25,6 +25,12 @@ static int run(const struct gx_options *options)
   return GX_EXIT_USAGE;
 }
 
+static const struct gx_example example[] = {
+    {"gridcross init > my.yaml", "the neo-Hookean bar: every parameter with its meaning, at its default"},
+    {"gridcross init cantilever > beam.yaml", "the same of another problem"},
+    {0},
+};
+
 const struct gx_command gx_command_init = {
     .name = "init",
     .operands = "[PROBLEM]",
@@ -32,5 +38,6 @@ const struct gx_command gx_command_init = {
     .most = 1,
     .help = "Print a commented run file to start from.",
     .option = option,
+    .example = example,
     .run = run,
 };

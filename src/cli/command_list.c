@@ -2,7 +2,6 @@
 /* gridcross list: the families of methods and the parameter table. */
 #include "command.h"
 
-#include <math.h>
 #include <string.h>
 
 #include <gridcross/basis.h>
@@ -14,30 +13,24 @@
 
 #include "../core/nearest.h"
 #include "../view/sheet.h"
+#include "facts.h"
+#include "text.h"
 
-enum { INDENT = 4, PAGE = 100 };
+enum { INDENT = 4 };
 
 static const struct gx_option option[] = {{0}};
 
-/* Text on lines of a page, indented. */
+/* Text on lines of the page, indented. */
 static void print_text(const char *text)
 {
-  int at = 0;
-  while (*(text += strspn(text, " "))) {
-    int length = (int)strcspn(text, " ");
-    if (at && at + 1 + length > PAGE) {
-      putchar('\n');
-      at = 0;
-    }
-    at += printf(at ? "%*s%.*s" : "%*s%.*s", at ? 1 : INDENT, "", length, text);
-    text += length;
-  }
-  if (at) putchar('\n');
+  if (!*text) return;
+  printf("%*s", INDENT, "");
+  gx_text_print(text, INDENT, INDENT, gx_text_width(), stdout);
 }
 
 static void print_method(const char *name, const char *facts, const char *help, const char *source)
 {
-  printf("%s%s%s\n", name, *facts ? "  " : "", facts);
+  gx_text_print(facts, printf("%s%s", name, *facts ? "  " : ""), INDENT, gx_text_width(), stdout);
   print_text(help);
   print_text(source);
 }
@@ -83,29 +76,14 @@ static void list_materials(void)
   for (const struct gx_material *const *m = gx_material_family; *m; m++) print_method((*m)->name, "", (*m)->help, (*m)->source);
 }
 
-static void print_range(const struct gx_parameter *p)
-{
-  char least[GX_NUMBER_LENGTH], most[GX_NUMBER_LENGTH];
-  gx_value_real(p->least, least);
-  gx_value_real(p->most, most);
-  fputs(p->type == GX_INTEGER ? "integer" : "number", stdout);
-  if (isfinite(p->least)) printf(" %s %s", p->above_least ? ">" : ">=", least);
-  if (isfinite(p->most)) printf("%s %s %s", isfinite(p->least) ? "," : "", p->below_most ? "<" : "<=", most);
-}
-
 static void list_parameters(void)
 {
+  int width = gx_text_width();
   for (const struct gx_parameter *p = gx_parameters; p < gx_parameters + GX_PARAMETERS; p++) {
-    printf("%s  (", p->path);
-    const char *gap = "";
-    for (int i = 0; p->choice && p->choice(i); i++, gap = ", ") printf("%s%s", gap, p->choice(i));
-    if (p->type != GX_TEXT)
-      print_range(p);
-    else if (!p->choice)
-      fputs("text", stdout);
-    if (*p->unit) printf("; %s", p->unit);
-    if (p->standard) printf("; default %s", p->standard);
-    puts(")");
+    char facts[GX_FACTS_LENGTH];
+    gx_facts_text(p, facts);
+    printf("%s  ", p->path);
+    gx_text_print(facts, gx_sheet_width(p->path) + 2, INDENT, width, stdout);
     print_text(p->help);
     if (p->why) {
       char why[512];
@@ -158,6 +136,12 @@ static int run(const struct gx_options *options)
   return GX_EXIT_USAGE;
 }
 
+static const struct gx_example example[] = {
+    {"gridcross list clocks", "order, stages and stability limit of each"},
+    {"gridcross list parameters | less", "every parameter, and why its default is what it is"},
+    {0},
+};
+
 const struct gx_command gx_command_list = {
     .name = "list",
     .operands = "[spaces|bases|clocks|problems|materials|parameters|papers]",
@@ -166,5 +150,6 @@ const struct gx_command gx_command_list = {
     .help =
         "List the methods that can be combined, the parameters of run files, or the papers' items; without argument all of them.",
     .option = option,
+    .example = example,
     .run = run,
 };

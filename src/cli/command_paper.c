@@ -372,6 +372,13 @@ static int run(const struct gx_options *options)
   return session.jobs ? run_items(&session) : GX_EXIT_USAGE;
 }
 
+static const struct gx_example example[] = {
+    {"gridcross paper --list", "what there is"},
+    {"gridcross paper steffen2010/fig11", "one figure: ours, theirs, ratio, gate, verdict"},
+    {"gridcross paper berzins2021 -o ours", "all its tables; studies and figures are kept"},
+    {0},
+};
+
 const struct gx_command gx_command_paper = {
     .name = "paper",
     .operands = "[PAPER[/ITEM]]...",
@@ -379,5 +386,6 @@ const struct gx_command gx_command_paper = {
     .most = -1,
     .help = "Recompute published tables and figures and print ours beside theirs, with ratio, gate and verdict.",
     .option = option,
+    .example = example,
     .run = run,
 };

@@ -10,6 +10,7 @@
 #include <gridcross/store.h>
 
 #include "../core/nearest.h"
+#include "text.h"
 
 static const struct gx_option option[] = {
     {'o', "output", "FIGURE", "the figure, ending in .svg, .png or .pdf; FIGURE.gp and FIGURE.csv stay beside it"},
@@ -23,15 +24,20 @@ static const struct gx_option option[] = {
 };
 
 /* The kinds, for people. */
-static void print_kinds(FILE *out)
+static void print_kinds(int width, FILE *out)
 {
-  fputs("\nkinds, the first where none is named:\n", out);
-  for (const struct gx_plot_kind *const *k = gx_plot_family; *k; k++)
-    fprintf(out, "  %-10s%s\n%12s--y %s\n%12s%s\n", (*k)->name, (*k)->help, "", (*k)->y, "", (*k)->example);
-  fputs(
-      "\nWithout gnuplot the figure is missing and the exit code 1, but FIGURE.gp and FIGURE.csv are written: gnuplot FIGURE.gp\n"
-      "draws it elsewhere. Cases that failed are left out and counted in the figure.\n",
-      out);
+  enum { INDENT = 12 };
+  fputs("kinds, the first where none is named:\n", out);
+  for (const struct gx_plot_kind *const *k = gx_plot_family; *k; k++) {
+    gx_text_print((*k)->help, fprintf(out, "  %-10s", (*k)->name), INDENT, width, out);
+    gx_text_print((*k)->y, fprintf(out, "%*s--y ", INDENT, ""), INDENT + 4, width, out);
+    fprintf(out, "%*s%s\n", INDENT, "", (*k)->example);
+  }
+  putc('\n', out);
+  gx_text_print(
+      "Without gnuplot the figure is missing and the exit code 1, but FIGURE.gp and FIGURE.csv are written: gnuplot FIGURE.gp "
+      "draws it elsewhere. Cases that failed are left out and counted in the figure.",
+      0, 0, width, out);
 }
 
 /* A last operand that is no place at all was meant as a kind. */
@@ -115,6 +121,13 @@ static int run(const struct gx_options *options)
   return gx_command_plot_figure(options, 0, NULL);
 }
 
+static const struct gx_example example[] = {
+    {"gridcross plot quickstart.study -o error.svg", "error against cells, both logarithmic"},
+    {"gridcross plot quickstart.study --y result.energy.drift --by method.space -o drift.pdf", "one colour a space"},
+    {"gridcross plot choice.study --front -o front.svg", "error against cost, and which cases are cheapest"},
+    {0},
+};
+
 const struct gx_command gx_command_plot = {
     .name = "plot",
     .operands = "DIR... [KIND]",
@@ -123,5 +136,6 @@ const struct gx_command gx_command_plot = {
     .help = "Draw a figure of studies by gnuplot: errors and other results as lines, histories, errors by wavenumber.",
     .option = option,
     .more = print_kinds,
+    .example = example,
     .run = run,
 };

@@ -175,6 +175,16 @@ static int run(const struct gx_options *options)
   return code;
 }
 
+static const struct gx_example example[] = {
+    {"gridcross run runs/quickstart.yaml", "into ./quickstart.study, and a table"},
+    {"gridcross run my.yaml --set mesh.cells=[32,64] --set method.clock=rk4 -o finer",
+     "other values for one run, and another place"},
+    {"gridcross run my.yaml --csv --no-timing > table.csv", "the whole table, equal bytes on every repetition"},
+    {"gridcross run my.yaml --repeats 5 -j 1",
+     "costs that can be compared: one case at a time, without measures, median of five"},
+    {0},
+};
+
 const struct gx_command gx_command_run = {
     .name = "run",
     .operands = "FILE.yaml",
@@ -182,5 +192,6 @@ const struct gx_command gx_command_run = {
     .most = 1,
     .help = "Run every case of a run file (-: standard input), write the study, and print a table.",
     .option = option,
+    .example = example,
     .run = run,
 };

@@ -14,7 +14,7 @@
 
 static const struct gx_option option[] = {
     {0, "case", "ID", "one case in time and by wavenumber; the first letters of its id do"},
-    {0, "quantity", "NAME", "displacement, velocity or stress; default: displacement"},
+    {0, "quantity", "displacement|velocity|stress", "of what; default: displacement"},
     {0, "csv", NULL, "print every sample and wavenumber as CSV, with all digits"},
     {0},
 };
@@ -194,6 +194,12 @@ static int run(const struct gx_options *options)
   return code;
 }
 
+static const struct gx_example example[] = {
+    {"gridcross run runs/spectra.yaml && gridcross spectrum spectra.study --quantity stress",
+     "the stress below and above the Nyquist wavenumber of the grid"},
+    {0},
+};
+
 const struct gx_command gx_command_spectrum = {
     .name = "spectrum",
     .operands = "DIR",
@@ -201,7 +207,7 @@ const struct gx_command gx_command_spectrum = {
     .most = 1,
     .help =
         "Show errors by wavenumber, of studies run with output.spectra: the parts that the grid can hold and those it cannot.",
-    .example = "gridcross run runs/spectra.yaml && gridcross spectrum spectra.study --quantity stress",
     .option = option,
+    .example = example,
     .run = run,
 };

@@ -8,49 +8,51 @@
 
 #include "../core/nearest.h"
 #include "command.h"
-
-static const struct gx_command *const commands[] = {&gx_command_run,
-                                                    &gx_command_check,
-                                                    &gx_command_init,
-                                                    &gx_command_compare,
-                                                    &gx_command_plot,
-                                                    &gx_command_spectrum,
-                                                    &gx_command_balance,
-                                                    &gx_command_advise,
-                                                    &gx_command_paper,
-                                                    &gx_command_list,
-                                                    NULL};
+#include "completion.h"
+#include "manual.h"
+#include "text.h"
 
 static void print_help(FILE *out)
 {
+  int width = gx_text_width();
   fputs("usage: gridcross COMMAND [OPTION]... [ARGUMENT]...\n\n"
         "Compare material point methods on equal terms.\n\n",
         out);
-  for (const struct gx_command *const *c = commands; *c; c++) fprintf(out, "  %-10s%s\n", (*c)->name, (*c)->help);
+  for (const struct gx_command *const *c = gx_command_family; *c; c++)
+    gx_text_print((*c)->help, fprintf(out, "  %-10s", (*c)->name), 12, width, out);
   fputs("\n"
-        "  gridcross COMMAND --help    options of a command\n"
-        "  gridcross --version         version and libraries\n",
+        "  gridcross COMMAND --help    options of a command, and examples\n"
+        "  gridcross --version         version, compiler and libraries\n"
+        "  gridcross --completion      for bash: source <(gridcross --completion)\n"
+        "  gridcross --manual [1|5]    the page of the program or of run files, for scdoc\n"
+        "\n"
+        "to begin:\n"
+        "  gridcross init bar-neo-hookean > my.yaml    a run file to edit\n"
+        "  gridcross run my.yaml                       its cases, into my.study\n"
+        "  gridcross compare my.study                  side by side\n",
         out);
 }
 
 static void print_version(void)
 {
   printf("gridcross %s (revision %s)\n"
-         "compiler %s\n"
+         "compiler %s, flags %s\n"
          "GSL %s, FFTW %s, HDF5 %s, libyaml %s\n",
-         gx_build.version, gx_build.git_revision, gx_build.compiler, gx_build.gsl, gx_build.fftw, gx_build.hdf5, gx_build.yaml);
+         gx_build.version, gx_build.git_revision, gx_build.compiler, gx_build.flags, gx_build.gsl, gx_build.fftw, gx_build.hdf5,
+         gx_build.yaml);
 }
 
 static const struct gx_command *find_command(const char *name)
 {
   struct gx_nearest near = {.word = name + strspn(name, "-")};
-  for (const struct gx_command *const *c = commands; *c; c++) {
+  for (const struct gx_command *const *c = gx_command_family; *c; c++) {
     if (!strcmp(name, (*c)->name)) return *c;
     gx_nearest_try(&near, (*c)->name);
   }
-  gx_nearest_try(&near, "help");
-  gx_nearest_try(&near, "version");
-  bool option = *near.best && (!strcmp(near.best, "help") || !strcmp(near.best, "version"));
+  static const char *const other[] = {"help", "version", "completion", "manual"};
+  bool option = false;
+  for (size_t i = 0; i < sizeof other / sizeof *other; i++) gx_nearest_try(&near, other[i]);
+  for (size_t i = 0; i < sizeof other / sizeof *other; i++) option = option || !strcmp(near.best, other[i]);
   fprintf(stderr, "gridcross: no command '%s'", name);
   if (*near.best) fprintf(stderr, ": did you mean %s%s?", option ? "--" : "", near.best);
   fputs(*near.best ? "\n" : "; see gridcross --help\n", stderr);
@@ -71,12 +73,17 @@ static int run_command(int argc, char **argv)
     print_version();
     return GX_EXIT_DONE;
   }
+  if (!strcmp(argv[1], "--completion")) return gx_completion_print(stdout) ? gx_command_no_memory() : GX_EXIT_DONE;
+  if (!strcmp(argv[1], "--manual")) {
+    bool reference = argc > 2 && !strcmp(argv[2], "5");
+    return (reference ? gx_manual_reference : gx_manual_program)(stdout) ? gx_command_no_memory() : GX_EXIT_DONE;
+  }
   const struct gx_command *command = find_command(argv[1]);
   if (!command) return GX_EXIT_USAGE;
   struct gx_options options;
   int code = gx_options_parse(&options, command, argc, argv, stderr);
   if (options.help)
-    gx_options_help(command, stdout);
+    gx_options_help(command, gx_text_width(), stdout);
   else if (!code)
     code = command->run(&options);
   gx_options_free(&options);

@@ -6,12 +6,13 @@
 #include <string.h>
 
 #include "../core/nearest.h"
+#include "text.h"
 
-static const struct gx_option help_option = {'h', "help", NULL, "print this and end"};
+const struct gx_option gx_options_help_option = {'h', "help", NULL, "print this and end"};
 
 static const struct gx_option *find_letter(const struct gx_command *command, char letter)
 {
-  if (letter == help_option.letter) return &help_option;
+  if (letter == gx_options_help_option.letter) return &gx_options_help_option;
   for (const struct gx_option *o = command->option; o->name; o++)
     if (o->letter && o->letter == letter) return o;
   return NULL;
@@ -19,7 +20,8 @@ static const struct gx_option *find_letter(const struct gx_command *command, cha
 
 static const struct gx_option *find_name(const struct gx_command *command, const char *name, size_t length)
 {
-  if (strlen(help_option.name) == length && !strncmp(help_option.name, name, length)) return &help_option;
+  if (strlen(gx_options_help_option.name) == length && !strncmp(gx_options_help_option.name, name, length))
+    return &gx_options_help_option;
   for (const struct gx_option *o = command->option; o->name; o++)
     if (strlen(o->name) == length && !strncmp(o->name, name, length)) return o;
   return NULL;
@@ -43,7 +45,7 @@ static int unknown(const struct gx_command *command, const char *word, FILE *err
 
 static void give(struct gx_options *options, const struct gx_option *option, const char *value)
 {
-  if (option == &help_option)
+  if (option == &gx_options_help_option)
     options->help = true;
   else
     options->given[options->count++] = (struct gx_given){.option = option, .value = value};
@@ -134,23 +136,38 @@ size_t gx_options_values(const struct gx_options *options, const char *name, con
   return count;
 }
 
-static void print_option(const struct gx_option *option, FILE *out)
+static void print_option(const struct gx_option *option, int width, FILE *out)
 {
+  enum { LEFT = 26 };
   char left[64];
   snprintf(left, sizeof left, "%s%.1s%s--%s%s%s", option->letter ? "-" : " ", option->letter ? &option->letter : " ",
            option->letter ? ", " : "  ", option->name, option->argument ? " " : "", option->argument ? option->argument : "");
-  fprintf(out, "  %-26s  %s\n", left, option->help);
+  int at = fprintf(out, "  %-*s", LEFT, left);
+  if (at > LEFT + 2) at = fprintf(out, "\n%*s", LEFT + 2, "") - 1;
+  fputs("  ", out);
+  gx_text_print(option->help, at + 2, at + 2, width, out);
 }
 
-void gx_options_help(const struct gx_command *command, FILE *out)
+void gx_options_help(const struct gx_command *command, int width, FILE *out)
 {
   bool any = command->option->name;
-  fprintf(out, "usage: gridcross %s%s%s%s\n\n%s\n\n", command->name, any ? " [OPTION]..." : "", *command->operands ? " " : "",
-          command->operands, command->help);
-  for (const struct gx_option *o = command->option; o->name; o++) print_option(o, out);
-  print_option(&help_option, out);
-  if (command->more) command->more(out);
-  if (command->example) fprintf(out, "\nexample: %s\n", command->example);
+  fprintf(out, "usage: gridcross %s%s%s%s\n\n", command->name, any ? " [OPTION]..." : "", *command->operands ? " " : "",
+          command->operands);
+  gx_text_print(command->help, 0, 0, width, out);
+  putc('\n', out);
+  for (const struct gx_option *o = command->option; o->name; o++) print_option(o, width, out);
+  print_option(&gx_options_help_option, width, out);
+  if (command->more) {
+    putc('\n', out);
+    command->more(width, out);
+  }
+  if (!command->example) return;
+  fputs("\nexamples:\n", out);
+  for (const struct gx_example *e = command->example; e->line; e++) {
+    fprintf(out, "  %s\n", e->line);
+    fputs("      ", out);
+    gx_text_print(e->what, 6, 6, width, out);
+  }
 }
 
 static char *quote(char *to, const char *word)

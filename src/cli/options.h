@@ -18,14 +18,19 @@ struct gx_option {
 
 struct gx_options;
 
+struct gx_example {
+  const char *line; /* for a shell */
+  const char *what; /* it does */
+};
+
 struct gx_command {
   const char *name;
   const char *operands; /* as usage prints them */
   int least, most;      /* operands; most < 0: any number */
   const char *help;
-  const char *example;            /* NULL: none */
-  const struct gx_option *option; /* ended by {0} */
-  void (*more)(FILE *out);        /* what help says beyond them; NULL: nothing */
+  const struct gx_example *example;   /* ended by {0} */
+  const struct gx_option *option;     /* ended by {0} */
+  void (*more)(int width, FILE *out); /* what help says beyond them, in lines of so many characters; NULL: nothing */
   int (*run)(const struct gx_options *options);
 };
 
@@ -52,8 +57,10 @@ void gx_options_free(struct gx_options *options);
 const char *gx_options_value(const struct gx_options *options, const char *name);
 /* Values of every such option. value: [options->count]. Returns how many. */
 size_t gx_options_values(const struct gx_options *options, const char *name, const char **value);
-/* Usage, operands and options of a command. */
-void gx_options_help(const struct gx_command *command, FILE *out);
+/* Usage, operands, options and examples of a command, in lines of so many characters. */
+void gx_options_help(const struct gx_command *command, int width, FILE *out);
+/* -h, --help: every command has it. */
+extern const struct gx_option gx_options_help_option;
 /* The command line as a shell would take it; owned by the caller, NULL when memory runs out. */
 char *gx_options_line(const struct gx_options *options);
 

@@ -30,6 +30,12 @@ class Terminal(Studied):
                 text = ATTRIBUTE.sub("", self.shown(*args, columns=columns))
                 self.assertEqual([line for line in text.split("\n") if len(line) > columns], [], args)
 
+    def test_help_and_lists_fit_80_columns(self):
+        for args in (["--help"], ["list", "parameters"], ["list", "clocks"], ["list", "problems"], ["list", "spaces"], ["run", "--help"],
+                     ["plot", "--help"], ["compare", "--help"]):
+            lines = [line for line in self.shown(*args).split("\n") if not line.strip().startswith("gridcross ")]  # to be copied: whole
+            self.assertEqual([line for line in lines if len(line) > 80], [], args)
+
     def test_the_same_numbers_at_every_width(self):
         numbers = [sorted(re.findall(r"\d\.\d\de-\d", self.shown("run", "small.yaml", "-q", columns=c))) for c in (50, 300)]
         self.assertEqual(*numbers)

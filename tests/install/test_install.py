@@ -52,6 +52,12 @@ class Install(unittest.TestCase):
         out = output(self.prefix / "bin/gridcross", "check", self.prefix / "share/doc/gridcross/runs/quickstart.yaml")
         self.assertIn("18 cases", out)
 
+    def test_completion_and_manual(self):
+        self.assertIn("complete -F", (self.prefix / "share/bash-completion/completions/gridcross.bash").read_text())
+        if shutil.which("scdoc"):
+            for section in "15":
+                self.assertIn(".TH", (self.prefix / f"share/man/man{section}/gridcross.{section}").read_text())
+
     def test_shared_library_has_a_soname_and_exports_gx_names_alone(self):
         real = (self.lib / "libgridcross.so").resolve()
         soname = re.search(r"SONAME.*\[(.*)\]", output("readelf", "-d", real))[1]
