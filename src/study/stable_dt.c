@@ -19,14 +19,15 @@ static double unprojected_drift(const struct gx_splitting *splitting)
   return sum;
 }
 
-/* Few steps of many particles cost less than the power iteration, whose answer they do not need. Nor do those who only run it need that
- * of fewer steps than the iteration takes at least; a budget costs as much as tens of steps. */
+/* Few steps of many particles cost less than the power iteration, whose answer they do not need. Nor do runs that ask for fewer steps than
+ * the iteration takes at least; a budget costs as much as tens of steps. */
 static bool is_worth_an_estimate(const struct gx_simulation *simulation, const struct gx_case *one, bool running)
 {
   const double blink = 1e7; /* particle evaluations: tenths of a second */
   double lattice = pow((double)simulation->space_options.cells[0] * simulation->per_cell, simulation->problem_options.dim);
   double particles = simulation->points ? (double)simulation->points->n : lattice;
-  bool short_run = simulation->steps < GX_STABILITY_LEAST && one->value[GX_OUTPUT_BUDGET].type != GX_INTEGER;
+  bool few_wanted = one->value[GX_TIME_STEPS].type == GX_INTEGER && simulation->steps < GX_STABILITY_LEAST;
+  bool short_run = few_wanted && one->value[GX_OUTPUT_BUDGET].type != GX_INTEGER;
   if (running && short_run) return false;
   return simulation->steps >= GX_STABILITY_EVALUATIONS || particles * GX_STABILITY_EVALUATIONS <= blink;
 }
