@@ -32,13 +32,20 @@ void plain_standard_quadratic(struct plain *plain);
 void plain_cpgimp(struct plain *plain);
 void plain_moving_mesh_linear_start(struct plain *plain);
 void plain_moving_mesh_linear(struct plain *plain);
-void plain_moving_mesh_linear_sample(struct plain *plain);
 void plain_moving_mesh_quadratic_start(struct plain *plain);
 void plain_moving_mesh_quadratic(struct plain *plain);
-void plain_moving_mesh_quadratic_sample(struct plain *plain);
 void plain_standard_3d(struct plain *plain);
 void plain_moving_mesh_3d_start(struct plain *plain);
 void plain_moving_mesh_3d(struct plain *plain);
-void plain_moving_mesh_3d_sample(struct plain *plain);
+/* The moving mesh without state of the particles, a better method than the papers write. */
+void plain_nodal_linear_start(struct plain *plain);
+void plain_nodal_linear(struct plain *plain);
+void plain_nodal_linear_sample(struct plain *plain);
+void plain_nodal_quadratic_start(struct plain *plain);
+void plain_nodal_quadratic(struct plain *plain);
+void plain_nodal_quadratic_sample(struct plain *plain);
+void plain_nodal_3d_start(struct plain *plain);
+void plain_nodal_3d(struct plain *plain);
+void plain_nodal_3d_sample(struct plain *plain);
 
 #endif
