@@ -295,6 +295,13 @@ static void runs_start_from_the_exact_state(void **state)
     }
 }
 
+static double stable_step_of_run(const struct gx_case *one)
+{
+  struct gx_result result = gx_case_run(one);
+  gx_case_free(&result);
+  return result.stable_dt;
+}
+
 /* A step of many particles is not worth the hundreds that the power iteration may take, nor is a run of twenty steps of few the twenty-one
  * that it takes at least. */
 static void the_stable_step_costs_no_more_than_the_run(void **state)
@@ -308,12 +315,12 @@ static void the_stable_step_costs_no_more_than_the_run(void **state)
   one.value[GX_MESH_CELLS].integer = 120; /* too small to matter */
   assert_true(gx_case_plan(&one).stable_dt > 0);
   one.value[GX_TIME_STEPS].integer = 20;
-  assert_true(isnan(gx_case_run(&one).stable_dt));
+  assert_true(isnan(stable_step_of_run(&one)));
   one.value[GX_TIME_STEPS].integer = 21;
-  assert_true(gx_case_run(&one).stable_dt > 0);
+  assert_true(stable_step_of_run(&one) > 0);
   one.value[GX_TIME_STEPS].integer = 1;
   one.value[GX_OUTPUT_BUDGET] = (struct gx_value){.type = GX_INTEGER, .integer = 1}; /* a step with its budget takes longer */
-  assert_true(gx_case_run(&one).stable_dt > 0);
+  assert_true(stable_step_of_run(&one) > 0);
 }
 
 /* u_d = A sin(2 pi X_d) cos(phi_d) at the start, phases in multiples of pi. */
