@@ -142,17 +142,36 @@ struct gx_sink {
 /* A sink that keeps everything. results: [count], to be freed by gx_case_free one by one. */
 struct gx_sink gx_sink_array(struct gx_result *results);
 
+/* Where the cases to run come from. */
+struct gx_source {
+  void *context;
+  /* The next one, and its share of the cost of all that are left, this one among them; false: there is none. By one thread at a time. */
+  bool (*take)(void *context, size_t *index, double *share);
+};
+
+/* The cases of a study, longest first by a guess from their parameters, as they stand in the study where that is equal. */
+struct gx_queue;
+
+/* skip: [count] cases that are not run, NULL: none; sorted: otherwise as they stand. NULL when memory runs out. */
+struct gx_queue *gx_queue_create(const struct gx_study *study, const bool *skip, bool sorted);
+void gx_queue_free(struct gx_queue *queue);
+/* Cases that were in it at first. */
+size_t gx_queue_count(const struct gx_queue *queue);
+/* Sources of one queue may be used at the same time. */
+struct gx_source gx_queue_source(struct gx_queue *queue);
+
 /* How a study is run. */
 struct gx_study_means {
-  size_t threads;                     /* as many cases at once; what is left over joins the teams of 2-D and 3-D cases */
-  struct gx_sink sink;                /* where results go */
+  size_t threads;      /* as many cases at once; a 2-D or 3-D case whose share of what is left is larger has more of them */
+  struct gx_sink sink; /* where results go */
   const struct gx_progress *progress; /* borrowed; NULL: none */
   const bool *skip;                   /* [count] cases that are not run, borrowed; NULL: none */
+  const struct gx_source *source;     /* borrowed; NULL: all that are not skipped, longest first, or in order on one thread */
   atomic_bool *cancel;                /* set by anyone at any time to end early, borrowed; NULL: nobody does */
   const struct gx_observer *observer; /* of output.snapshots, borrowed; NULL: nobody */
 };
 
-/* Runs every case. Equal bits for any number of threads. Keeps no result. Returns 0, or -1 when it was cancelled or the sink failed:
+/* Runs every case, or those that the source gives. Equal bits for any number of threads. Keeps no result. Returns 0, or -1 when it was cancelled or the sink failed:
  * cases that the sink was not told of then have no result. */
 int gx_study_run(const struct gx_study *study, const struct gx_study_means *means);
 

@@ -12,7 +12,7 @@
 
 static const struct gx_option option[] = {
     GX_COMMAND_SET,
-    {'j', "jobs", "N", "threads: so many cases at once, what is left over within 2-D and 3-D cases; default: the processors"},
+    {'j', "jobs", "N", "threads: cases at once, longest first, and within long 2-D and 3-D cases; default: the processors"},
     {0, "csv", NULL, "print one line a method as CSV, with all digits"},
     {0, "json", NULL, "the same as JSON"},
     {0},

@@ -17,7 +17,7 @@
 static const struct gx_option option[] = {
     {0, "list", NULL, "name the items and what they are"},
     {'o', "output", "DIR", "keep each item's study there, and draw its figure"},
-    {'j', "jobs", "N", "threads: so many cases at once, what is left over within 2-D and 3-D cases; default: the processors"},
+    {'j', "jobs", "N", "threads: cases at once, longest first, and within long 2-D and 3-D cases; default: the processors"},
     {0, "csv", NULL, "print all rows as CSV"},
     {0, "json", NULL, "print all rows as JSON"},
     {'q', "quiet", NULL, "no progress on standard error"},

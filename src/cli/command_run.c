@@ -16,7 +16,7 @@
 static const struct gx_option option[] = {
     GX_COMMAND_SET,
     {'o', "output", "DIR", "where the study goes; default: the run file's name with .study"},
-    {'j', "jobs", "N", "threads: so many cases at once, what is left over within 2-D and 3-D cases; default: the processors"},
+    {'j', "jobs", "N", "threads: cases at once, longest first, and within long 2-D and 3-D cases; default: the processors"},
     {0, "repeats", "N", "time each case in N runs more without measures, and report the median; changes no result"},
     {0, "resume", NULL, "go on with an interrupted run: only the cases that it has not done"},
     {0, "shard", "i/n", "only every n-th case from the i-th, 1 to n: a study in n parts, to be joined by gridcross merge"},

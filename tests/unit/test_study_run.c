@@ -124,12 +124,83 @@ static void test_a_run_can_be_cancelled(void **unused)
   gx_runfile_free(study);
 }
 
+static void takes(struct gx_queue *queue, size_t index, double share)
+{
+  const struct gx_source source = gx_queue_source(queue);
+  size_t taken = SIZE_MAX;
+  double its_share = -1;
+  assert_true(source.take(source.context, &taken, &its_share));
+  assert_int_equal(taken, index);
+  NEAR(its_share, share, 1e-12);
+}
+
+/* 1-D, a clock of one stage, as many steps as cells: the cost goes with the square of the cells. */
+static void test_the_longest_case_is_begun_first(void **unused)
+{
+  (void)unused;
+  struct gx_study *study = study_of("problem: {name: bar-linear}\nmesh: {cells: [4, 8, 16, 8]}\nzip: [mesh.cells, time.dt]\n"
+                                    "time: {dt: [1e-3, 5e-4, 2.5e-4, 5.0001e-4], end: 0.1, landing: past}\n");
+  const bool skip[] = {false, false, false, true};
+  struct gx_queue *queue = gx_queue_create(study, skip, true);
+  assert_int_equal(gx_queue_count(queue), 3);
+  takes(queue, 2, 16. / 21);
+  takes(queue, 1, 4. / 5);
+  takes(queue, 0, 1);
+  size_t index;
+  double share;
+  const struct gx_source source = gx_queue_source(queue);
+  assert_false(source.take(source.context, &index, &share));
+  gx_queue_free(queue);
+  queue = gx_queue_create(study, NULL, false);
+  for (size_t i = 0; i < 4; i++) takes(queue, i, 1. / (double)(4 - i));
+  gx_queue_free(queue);
+  gx_runfile_free(study);
+}
+
+/* Cases of equal cost in the order of the study; methods that cost more a step first. */
+static void test_equal_cases_keep_their_order(void **unused)
+{
+  (void)unused;
+  struct gx_study *study = study_of("problem: {name: bar-neo-hookean, amplitude: [0.01, 0.02]}\nmesh: {cells: 8}\n"
+                                    "method: {space: [moving-mesh, standard], mass: [lumped, consistent]}\n");
+  struct gx_queue *queue = gx_queue_create(study, NULL, true);
+  const struct gx_source source = gx_queue_source(queue);
+  const size_t order[] = {3, 7, 2, 6, 1, 5, 0, 4};
+  for (size_t i = 0; i < 8; i++) {
+    size_t index = 99;
+    double share;
+    assert_true(source.take(source.context, &index, &share));
+    CHECK(index == order[i], "at %zu: %zu", i, index);
+  }
+  gx_queue_free(queue);
+  gx_runfile_free(study);
+}
+
+/* Of a source with two of seven cases these are run, however many threads there are. */
+static void test_a_source_says_which_cases_are_run(void **unused)
+{
+  (void)unused;
+  struct gx_study *study = study_of(seven);
+  for (size_t threads = 1; threads <= 4; threads++) {
+    const bool skip[CASES] = {true, false, true, true, true, false, true};
+    struct gx_queue *queue = gx_queue_create(study, skip, true);
+    const struct gx_source source = gx_queue_source(queue);
+    struct seen seen = {.fail_at = -1};
+    assert_int_equal(gx_study_run(study, &(struct gx_study_means){.threads = threads, .sink = {&seen, look}, .source = &source}),
+                     0);
+    for (int i = 0; i < CASES; i++) CHECK(seen.times[i] == !skip[i], "case %d", i);
+    gx_queue_free(queue);
+  }
+  gx_runfile_free(study);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_every_case_is_told_once),         cmocka_unit_test(test_what_is_skipped_is_not_run),
       cmocka_unit_test(test_an_array_keeps_what_results_own), cmocka_unit_test(test_a_sink_that_fails_ends_the_run),
-      cmocka_unit_test(test_a_run_can_be_cancelled),
+      cmocka_unit_test(test_a_run_can_be_cancelled),          cmocka_unit_test(test_the_longest_case_is_begun_first),
+      cmocka_unit_test(test_equal_cases_keep_their_order),    cmocka_unit_test(test_a_source_says_which_cases_are_run),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
