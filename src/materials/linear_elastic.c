@@ -3,12 +3,13 @@
 #include <gridcross/material.h>
 
 #include <math.h>
+#include <stdbool.h>
 
 #include "../core/kernel.h"
 
-GX_CLONES static int piola_points(double young, size_t n, const double *restrict F, double *restrict P)
+GX_CLONES static bool piola_points(double young, size_t n, const double *restrict F, double *restrict P)
 {
-  int bad = 0;
+  long bad = 0; /* as wide as a double, of which as many fit in a vector */
   for (size_t p = 0; p < n; p++) {
     bad |= !(F[p] > 0 && F[p] < 1e100);
     P[p] = young * (F[p] - 1);

@@ -20,7 +20,7 @@ GX_CORE bool piola_points(const int dim, const bool bulk, const struct gx_moduli
     in[k] = F[k];
     out[k] = P[k];
   }
-  int bad = 0;
+  long bad = 0; /* as wide as a double, of which as many fit in a vector */
   GX_APART
   for (size_t p = 0; p < n; p++) {
     double f[GX_MAX_TENSOR], c[GX_MAX_TENSOR];

@@ -20,17 +20,9 @@
 /* What a stage holds: slopes along the directions already summed (line, outer, middle), then the value. */
 enum { X_KINDS = 2, L_KINDS, G_KINDS };
 
-struct direction {
-  int points, support, nodes;
-  int period;          /* points of a cell */
-  size_t stride;       /* of nodal fields */
-  const int *first;    /* [points] lowest function met */
-  const double *S, *D; /* line: [support][points], else [points][support]; */
-};
-
 struct gx_lattice {
   int dim;
-  struct direction line, middle, outer;
+  struct gx_lattice_line line, middle, outer;
   size_t pitch;       /* of rows, doubles */
   size_t nodes_pitch; /* of a row of nodes, one entry for every point that meets it */
   size_t parts, plane, tail;
@@ -68,7 +60,7 @@ static size_t row_of(const struct gx_lattice *lattice)
 
 /* Sets what every point meets, by its place in a cell alone: where round-off sends some to the next function and others not (GIMP
  * half way between two nodes) by one function more. met: [points]. Returns whether particles do sit alike in every cell. */
-static bool align(struct direction *direction, const int *met, int *first)
+static bool align(struct gx_lattice_line *direction, const int *met, int *first)
 {
   const int period = direction->period;
   int most = 0;
@@ -88,7 +80,8 @@ static bool align(struct direction *direction, const int *met, int *first)
          first[direction->points - 1] + direction->support <= direction->nodes;
 }
 
-static void arrange(const struct direction *direction, int support, const int *met, const double *from, bool by_point, double *to)
+static void arrange(const struct gx_lattice_line *direction, int support, const int *met, const double *from, bool by_point,
+                    double *to)
 {
   for (int k = 0; k < direction->points; k++)
     for (int j = 0; j < support; j++) {
@@ -98,16 +91,16 @@ static void arrange(const struct direction *direction, int support, const int *m
 }
 
 /* Weights of the points along d, whose particles are `apart` from each other. Returns whether they factor. */
-static bool weigh(struct gx_lattice *lattice, struct direction *direction, const struct gx_grid *grid,
+static bool weigh(struct gx_lattice *lattice, struct gx_lattice_line *direction, const struct gx_grid *grid,
                   const struct gx_basis *basis, const struct gx_particles *particles, int d, size_t apart)
 {
   const struct gx_axis *axis = &grid->axis[d];
   size_t n = (size_t)particles->lattice[d], weights = n * (size_t)axis->support;
-  *direction = (struct direction){.points = (int)n,
-                                  .support = axis->support,
-                                  .period = (int)n / axis->cells,
-                                  .nodes = axis->stored,
-                                  .stride = grid->stride[d]};
+  *direction = (struct gx_lattice_line){.points = (int)n,
+                                        .support = axis->support,
+                                        .period = (int)n / axis->cells,
+                                        .nodes = axis->stored,
+                                        .stride = grid->stride[d]};
   int *met = gx_arena_take(&lattice->arena, 2 * n * sizeof(int));
   double *point = gx_arena_take(&lattice->arena, (2 * n + 2 * weights) * sizeof(double));
   if ((int)n % axis->cells || !met || !point) return false;
@@ -131,9 +124,9 @@ static bool weigh_all(struct gx_lattice *lattice, const struct gx_grid *grid, co
 {
   static const int none[1];
   static const double one[1] = {1};
-  struct direction *directions[] = {&lattice->line, grid->dim > 2 ? &lattice->middle : &lattice->outer, &lattice->outer};
+  struct gx_lattice_line *directions[] = {&lattice->line, grid->dim > 2 ? &lattice->middle : &lattice->outer, &lattice->outer};
   lattice->middle = lattice->outer =
-      (struct direction){.points = 1, .support = 1, .nodes = 1, .period = 1, .first = none, .S = one};
+      (struct gx_lattice_line){.points = 1, .support = 1, .nodes = 1, .period = 1, .first = none, .S = one};
   size_t apart = 1;
   for (int d = 0; d < grid->dim; d++) {
     if (particles->lattice[d] == 0 || !weigh(lattice, directions[d], grid, basis, particles, d, apart)) return false;
@@ -143,7 +136,7 @@ static bool weigh_all(struct gx_lattice *lattice, const struct gx_grid *grid, co
 }
 
 /* Slabs thick enough for a plane to belong to two at most, and for the planes that two share to be few. */
-static size_t parts_of(const struct direction *outer)
+static size_t parts_of(const struct gx_lattice_line *outer)
 {
   enum { LEAST = 6, MOST = 16 };
   int cells = outer->points / outer->period, least = outer->support + 1 > LEAST ? outer->support + 1 : LEAST;
@@ -184,7 +177,7 @@ struct gx_lattice *gx_lattice_create(const struct gx_grid *grid, const struct gx
   lattice->dim = grid->dim;
   lattice->team = team;
   if (weigh_all(lattice, grid, basis, particles)) {
-    const struct direction *line = &lattice->line;
+    const struct gx_lattice_line *line = &lattice->line;
     lattice->pitch = round_up((size_t)line->points);
     lattice->nodes_pitch = round_up((size_t)(line->points + (line->support - 1) * line->period));
     lattice->parts = parts_of(&lattice->outer);
@@ -200,6 +193,11 @@ void gx_lattice_free(struct gx_lattice *lattice)
   gx_arena_free(&lattice->arena);
   free(lattice->block);
   free(lattice);
+}
+
+const struct gx_lattice_line *gx_lattice_line(const struct gx_lattice *lattice)
+{
+  return &lattice->line;
 }
 
 static struct sweep begin(const struct gx_lattice *lattice, const struct gx_lattice_pass *pass, size_t worker)
@@ -239,7 +237,7 @@ static double *in_lines(const struct gx_lattice *lattice, double *L, int line)
 }
 
 /* Entries of a row of nodes that the points of one place in a cell meet. */
-static int met_by_each(const struct direction *line)
+static int met_by_each(const struct gx_lattice_line *line)
 {
   return line->points / line->period + line->support - 1;
 }
@@ -248,7 +246,7 @@ static void enter_plane(struct sweep *sweep, int plane)
 {
   const struct gx_lattice *lattice = sweep->lattice;
   const struct gx_lattice_pass *pass = sweep->pass;
-  const struct direction *line = &lattice->line;
+  const struct gx_lattice_line *line = &lattice->line;
   const size_t row = row_of(lattice), n = (size_t)line->points;
   if (pass->sum && lattice->dim > 1)
     memset(in_window(lattice, sweep->X_sum, plane, 0), 0, (size_t)lattice->middle.nodes * X_KINDS * row * sizeof(double));
@@ -267,7 +265,7 @@ static void leave_plane(struct sweep *sweep, int plane)
 {
   const struct gx_lattice *lattice = sweep->lattice;
   const struct gx_lattice_pass *pass = sweep->pass;
-  const struct direction *line = &lattice->line;
+  const struct gx_lattice_line *line = &lattice->line;
   const size_t row = row_of(lattice), n = (size_t)line->points;
   const bool value = pass->body || lattice->dim > 1;
   for (int d = 0; pass->sum && d < lattice->dim; d++) memset(sweep->out[d], 0, lattice->plane * sizeof(double));
@@ -286,7 +284,7 @@ static void leave_plane(struct sweep *sweep, int plane)
 
 /* A sum over the rows of a direction for each kind: those before by S, the value by D and, if asked for, by S. in: rows of a stage
  * of so many kinds; out: of the next. */
-static void combine(const struct sweep *sweep, const struct direction *direction, int point, int kinds, double *const *in,
+static void combine(const struct sweep *sweep, const struct gx_lattice_line *direction, int point, int kinds, double *const *in,
                     bool value, double *out)
 {
   const size_t row = row_of(sweep->lattice);
@@ -300,7 +298,7 @@ static void combine(const struct sweep *sweep, const struct direction *direction
 }
 
 /* The adjoint of combine. */
-static void spread(const struct sweep *sweep, const struct direction *direction, int point, int kinds, const double *in,
+static void spread(const struct sweep *sweep, const struct gx_lattice_line *direction, int point, int kinds, const double *in,
                    bool value, double *const *out)
 {
   const size_t row = row_of(sweep->lattice);
@@ -317,7 +315,7 @@ static void spread(const struct sweep *sweep, const struct direction *direction,
 static void enter_line(struct sweep *sweep, int point, int line)
 {
   const struct gx_lattice *lattice = sweep->lattice;
-  const struct direction *outer = &lattice->outer;
+  const struct gx_lattice_line *outer = &lattice->outer;
   double *X[GX_MAX_SUPPORT], *L = in_lines(lattice, sweep->L, line);
   if (sweep->pass->sum && lattice->dim > 2)
     memset(in_lines(lattice, sweep->L_sum, line), 0, L_KINDS * row_of(lattice) * sizeof(double));
@@ -329,7 +327,7 @@ static void enter_line(struct sweep *sweep, int point, int line)
 static void leave_line(struct sweep *sweep, int point, int line)
 {
   const struct gx_lattice *lattice = sweep->lattice;
-  const struct direction *outer = &lattice->outer;
+  const struct gx_lattice_line *outer = &lattice->outer;
   double *X[GX_MAX_SUPPORT];
   if (!sweep->pass->sum || lattice->dim < 2) return;
   for (int j = 0; j < outer->support; j++) X[j] = in_window(lattice, sweep->X_sum, outer->first[point] + j, line);
@@ -340,7 +338,7 @@ static void visit_row(struct sweep *sweep, int outer, int point)
 {
   const struct gx_lattice *lattice = sweep->lattice;
   const struct gx_lattice_pass *pass = sweep->pass;
-  const struct direction *middle = &lattice->middle;
+  const struct gx_lattice_line *middle = &lattice->middle;
   double *L[GX_MAX_SUPPORT], *L_sum[GX_MAX_SUPPORT];
   for (int j = 0; j < middle->support; j++) {
     L[j] = in_lines(lattice, sweep->L, middle->first[point] + j);
@@ -354,7 +352,7 @@ static void visit_row(struct sweep *sweep, int outer, int point)
 
 static void visit_plane(struct sweep *sweep, int outer)
 {
-  const struct direction *middle = &sweep->lattice->middle;
+  const struct gx_lattice_line *middle = &sweep->lattice->middle;
   int low = middle->first[0], high = low;
   for (int point = 0; point < middle->points; point++) {
     while (low < middle->first[point]) leave_line(sweep, outer, low++);
@@ -391,7 +389,7 @@ static void run_part(void *context, size_t part, size_t worker)
 {
   const struct task *task = context;
   const struct gx_lattice *lattice = task->lattice;
-  const struct direction *outer = &lattice->outer;
+  const struct gx_lattice_line *outer = &lattice->outer;
   struct sweep sweep = begin(lattice, task->pass, worker);
   const int from = bound(lattice, part), to = bound(lattice, part + 1);
   int low = outer->first[from], high = low;

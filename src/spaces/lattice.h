@@ -12,6 +12,15 @@
 
 struct gx_lattice;
 
+/* The points of a lattice along a direction, alike in every cell. */
+struct gx_lattice_line {
+  int points, support, nodes;
+  int period;          /* points of a cell */
+  size_t stride;       /* of nodal fields */
+  const int *first;    /* [points] lowest function met */
+  const double *S, *D; /* first direction: [support][points], else [points][support] */
+};
+
 /* A row of particles along the first direction, consecutive from `first` on. [n] arrays, scratch that the visitor may change. */
 struct gx_lattice_row {
   size_t first, n;
@@ -37,6 +46,8 @@ struct gx_lattice_pass {
 struct gx_lattice *gx_lattice_create(const struct gx_grid *grid, const struct gx_basis *basis,
                                      const struct gx_particles *particles, struct gx_team *team);
 void gx_lattice_free(struct gx_lattice *lattice);
+/* Its first direction. */
+const struct gx_lattice_line *gx_lattice_line(const struct gx_lattice *lattice);
 /* The same bits for any team. Allocates nothing. */
 void gx_lattice_run(struct gx_lattice *lattice, const struct gx_lattice_pass *pass);
 /* value[d][p] = sum_i field[d][i] S_ip; gradient[d*dim+e][p] = sum_i field[d][i] D_ip,e; either may be NULL. */

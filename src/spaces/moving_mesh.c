@@ -13,10 +13,12 @@
 
 #include "../core/kernel.h"
 #include "../core/vector.h"
+#include "slots.h"
 
 struct moving_mesh {
   struct gx_mesh mesh;
-  double accelerated; /* s, when the lattice last was */
+  struct gx_slots *slots; /* 1-D lattices: forces slot by slot; NULL: by rows */
+  double accelerated;     /* s, when the lattice last was */
 };
 
 /* A hat has a slope where it has no value: a node that only particles on a face of its cells touch would strain them, freely. */
@@ -45,7 +47,15 @@ static enum gx_status create(const struct gx_space_kind *kind, struct gx_space *
   GX_TRY(gx_mesh_project(mesh, particles->v, mesh->v));
   if (mesh->affine) gx_affine_gather(mesh);
   if (!options->reconstructed) mesh->lattice = gx_lattice_create(&mesh->grid, options->basis, particles, options->team);
+  if (mesh->lattice && particles->dim == 1 && !options->stress_rate)
+    ((struct moving_mesh *)mesh)->slots = gx_slots_create(gx_lattice_line(mesh->lattice), particles, posed);
   return GX_OK;
+}
+
+static void free_mesh(struct gx_space *space)
+{
+  if (space) gx_slots_free(((struct moving_mesh *)space)->slots);
+  gx_mesh_free(space);
 }
 
 static enum gx_status weights(struct gx_space *space)
@@ -131,10 +141,8 @@ static void load_row(void *context, const struct gx_lattice_row *row)
   for (int d = 0; d < dim; d++) times_mass(row->n, particles->m + row->first, row->body[d]);
 }
 
-static enum gx_status accelerate_lattice(struct moving_mesh *moving, double t)
+static long load_rows(struct gx_mesh *mesh, double t)
 {
-  struct gx_mesh *mesh = &moving->mesh;
-  const struct gx_particles *particles = mesh->space.particles;
   struct loading loading = {.mesh = mesh, .t = t, .tangled = LONG_MAX};
   const struct gx_lattice_pass pass = {.field = mesh->u,
                                        .gradient = true,
@@ -144,13 +152,28 @@ static enum gx_status accelerate_lattice(struct moving_mesh *moving, double t)
                                        .visit = load_row,
                                        .context = &loading};
   gx_lattice_run(mesh->lattice, &pass);
+  return loading.tangled < LONG_MAX ? loading.tangled : -1;
+}
+
+/* The first particle that is tangled, or -1. */
+static long load_slots(struct moving_mesh *moving, double t)
+{
+  const struct gx_particles *particles = moving->mesh.space.particles;
+  const struct gx_posed *posed = moving->mesh.space.posed;
+  if (gx_slots_force(moving->slots, moving->mesh.u[0], t, moving->mesh.a[0])) return -1;
+  deform(&moving->mesh);
+  return posed->problem->material->piola(&posed->options.moduli, 1, particles->n, particles->F, particles->P);
+}
+
+static enum gx_status accelerate_lattice(struct moving_mesh *moving, double t)
+{
+  struct gx_mesh *mesh = &moving->mesh;
+  const long tangled = moving->slots ? load_slots(moving, t) : load_rows(mesh, t);
   moving->accelerated = t;
-  if (loading.tangled < LONG_MAX) {
-    deform(mesh);
-    return gx_status_set(mesh->space.outcome, GX_TANGLED, loading.tangled, "det F of a particle is %g",
-                         gx_particles_jacobian(particles, (size_t)loading.tangled));
-  }
-  return gx_mesh_solve(mesh, mesh->a);
+  if (tangled < 0) return gx_mesh_solve(mesh, mesh->a);
+  deform(mesh);
+  return gx_status_set(mesh->space.outcome, GX_TANGLED, tangled, "det F of a particle is %g",
+                       gx_particles_jacobian(mesh->space.particles, (size_t)tangled));
 }
 
 static enum gx_status accelerate(struct gx_space *space, double t)
@@ -226,6 +249,15 @@ struct stepping {
   size_t stretches;
 };
 
+GX_CLONES static void kick_and_move(size_t n, double kick, double drift, const double *restrict a, double *restrict v,
+                                    double *restrict u)
+{
+  for (size_t i = 0; i < n; i++) {
+    v[i] += kick * a[i];
+    u[i] += drift * v[i];
+  }
+}
+
 static void step_stretch(void *context, size_t part, size_t worker)
 {
   const struct stepping *stepping = context;
@@ -234,8 +266,12 @@ static void step_stretch(void *context, size_t part, size_t worker)
   const size_t n = gx_team_bound(stored, stepping->stretches, part + 1) - from;
   (void)worker;
   for (int d = 0; d < mesh->grid.dim; d++) {
-    if (stepping->kick != 0) gx_vector_add(n, stepping->kick, mesh->a[d] + from, mesh->v[d] + from);
-    if (stepping->drift != 0) gx_vector_add(n, stepping->drift, mesh->v[d] + from, mesh->u[d] + from);
+    if (stepping->kick != 0 && stepping->drift != 0)
+      kick_and_move(n, stepping->kick, stepping->drift, mesh->a[d] + from, mesh->v[d] + from, mesh->u[d] + from);
+    else if (stepping->kick != 0)
+      gx_vector_add(n, stepping->kick, mesh->a[d] + from, mesh->v[d] + from);
+    else if (stepping->drift != 0)
+      gx_vector_add(n, stepping->drift, mesh->v[d] + from, mesh->u[d] + from);
   }
 }
 
@@ -352,7 +388,7 @@ const struct gx_space_kind gx_moving_mesh = {
     .help = "total Lagrangian MPM: gradients in the reference configuration, first Piola-Kirchhoff stress",
     .source = "steffen2010 eqs 50-61",
     .create = create,
-    .free = gx_mesh_free,
+    .free = free_mesh,
     .weights = weights,
     .project = project,
     .accelerate = accelerate,
