@@ -80,6 +80,10 @@ int gx_store_finish(struct gx_store *store, const struct gx_store_run *run);
 /* Flushes what there is to disk, for another run to go on with. */
 int gx_store_close(struct gx_store *store);
 
+/* Joins the shards of a study, each in a directory, into one that holds the study as an undivided run would have left it, byte for
+ * byte, with its snapshots. command: the command line. */
+int gx_store_merge(size_t shards, const char *const *shard, const char *directory, const char *command, FILE *errors);
+
 /* The table of a study directory piece by piece, with the timing columns. column: [columns] that are wanted, "case" among them; NULL:
  * all. NULL after a message. errors is borrowed to the end. */
 struct gx_store_rows *gx_store_rows_begin(const char *directory, size_t columns, const char *const *column, FILE *errors);

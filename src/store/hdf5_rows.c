@@ -84,6 +84,11 @@ size_t gx_hdf5_rows_total(const struct gx_hdf5_rows *rows)
   return rows->total;
 }
 
+void gx_hdf5_rows_seek(struct gx_hdf5_rows *rows, size_t row)
+{
+  rows->next = row < rows->total ? row : rows->total;
+}
+
 static int read_column(struct gx_hdf5_rows *rows, struct gx_table *table, size_t c, union gx_entry *entry)
 {
   const enum gx_type type = rows->like->column[c].type;
@@ -118,6 +123,15 @@ struct gx_table *gx_hdf5_rows_next(struct gx_hdf5_rows *rows, size_t most, size_
   if (!failed) return table;
   gx_table_free(table);
   return NULL;
+}
+
+bool gx_hdf5_rows_keeps(struct gx_hdf5_rows *rows, enum gx_hdf5_kept what)
+{
+  H5G_info_t info;
+  hid_t group = gx_handle_open_group(rows->file, gx_hdf5_write_kept_name[what]);
+  const bool any = group >= 0 && H5Gget_info(group, &info) >= 0 && info.nlinks > 0;
+  if (group >= 0) H5Gclose(group);
+  return any;
 }
 
 struct gx_table *gx_hdf5_rows_kept(struct gx_hdf5_rows *rows, enum gx_hdf5_kept what, const char *id, int *failed)

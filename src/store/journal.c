@@ -22,7 +22,7 @@ struct gx_journal {
   pthread_cond_t closing;
   pthread_t flusher;
   bool flushed_by_thread; /* else nobody but gx_journal_close does */
-  bool dirty, closed;
+  bool dirty, closed, empty;
   int broken; /* errno of a flush that failed; 0: none has */
 };
 
@@ -119,7 +119,7 @@ struct gx_journal *gx_journal_create(const char *directory, const char *identity
     free(journal);
     return NULL;
   }
-  *journal = (struct gx_journal){.path = path, .errors = errors};
+  *journal = (struct gx_journal){.path = path, .errors = errors, .empty = true};
   journal->file = open_first_free(journal, directory, room);
   int failed = journal->file < 0 ? errno : write_head(journal->file, identity);
   if (failed) {
@@ -171,6 +171,7 @@ int gx_journal_append(struct gx_journal *journal, size_t index, const struct gx_
   pthread_mutex_lock(&journal->lock);
   int failed = journal->broken ? journal->broken : write_all(journal->file, part, PARTS);
   journal->dirty = true;
+  if (!failed) journal->empty = false;
   pthread_mutex_unlock(&journal->lock);
   return failed ? say(journal, strerror(failed)) : 0;
 }
@@ -185,6 +186,7 @@ int gx_journal_close(struct gx_journal *journal)
     pthread_mutex_unlock(&journal->lock);
     pthread_join(journal->flusher, NULL);
   }
+  if (journal->empty) unlink(journal->path);
   int failed = flush(journal->file);
   if (!failed) failed = journal->broken;
   if (close(journal->file) && !failed) failed = errno;

@@ -47,7 +47,7 @@ struct gx_journal *gx_journal_create(const char *directory, const char *identity
 /* Adds a record, which then no kill undoes; flushed to disk within about a second. By any thread. Returns 0, or -1 after a message:
  * then the journal is as it was, and can be used again. */
 int gx_journal_append(struct gx_journal *journal, size_t index, const struct gx_result *result);
-/* Flushes it to disk. Returns 0, or -1 after a message. */
+/* Flushes it to disk; one without records is removed. Returns 0, or -1 after a message. */
 int gx_journal_close(struct gx_journal *journal);
 
 /* Of a file that may be any file at all: */

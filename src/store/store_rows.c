@@ -7,13 +7,17 @@
 #include <string.h>
 
 #include "assembly.h"
-#include "hdf5_rows.h"
+#include "store_rows.h"
 
 struct gx_store_rows {
-  char *study; /* owned: path of study.h5 */
+  char *study, *timing_path; /* owned */
+  size_t columns;
+  const char *const *column; /* borrowed */
   FILE *errors;
-  struct gx_hdf5_rows *rows;
-  FILE *timing; /* NULL: there is none */
+  struct gx_hdf5_rows *rows; /* NULL: paused */
+  size_t total, next;        /* rows */
+  FILE *timing;              /* NULL: paused, or there is none */
+  long timing_at;            /* where it goes on after a pause */
   /* Of the line that no row has had yet. */
   char id[GX_ID_LENGTH]; /* "": none */
   double seconds, cost;
@@ -28,16 +32,36 @@ static bool has_ours(const struct gx_table *table)
   return false;
 }
 
+static int open_again(struct gx_store_rows *rows)
+{
+  if (rows->rows) return 0;
+  rows->rows = gx_hdf5_rows_begin(rows->study, rows->columns, rows->column, rows->errors);
+  if (!rows->rows) return -1;
+  rows->total = gx_hdf5_rows_total(rows->rows);
+  gx_hdf5_rows_seek(rows->rows, rows->next);
+  rows->timing = fopen(rows->timing_path, "rb");
+  if (rows->timing && rows->timing_at && fseek(rows->timing, rows->timing_at, SEEK_SET)) rows->timing_at = 0;
+  return 0;
+}
+
+void gx_store_rows_pause(struct gx_store_rows *rows)
+{
+  gx_hdf5_rows_end(rows->rows);
+  rows->rows = NULL;
+  if (!rows->timing) return;
+  rows->timing_at = ftell(rows->timing);
+  fclose(rows->timing);
+  rows->timing = NULL;
+}
+
 struct gx_store_rows *gx_store_rows_begin(const char *directory, size_t columns, const char *const *column, FILE *errors)
 {
   struct gx_store_rows *rows = calloc(1, sizeof *rows);
   char *timing = gx_assembly_path(directory, "", gx_assembly_name[GX_ASSEMBLY_TIMING], "");
   char *study = gx_assembly_path(directory, "", gx_assembly_name[GX_ASSEMBLY_STUDY], "");
   if (rows && timing && study) {
-    *rows = (struct gx_store_rows){.study = study, .errors = errors, .timing = fopen(timing, "rb")};
-    rows->rows = gx_hdf5_rows_begin(study, columns, column, errors);
-    free(timing);
-    if (rows->rows) return rows;
+    *rows = (struct gx_store_rows){.study = study, .timing_path = timing, .columns = columns, .column = column, .errors = errors};
+    if (!open_again(rows)) return rows;
     gx_store_rows_end(rows);
     return NULL;
   }
@@ -50,7 +74,12 @@ struct gx_store_rows *gx_store_rows_begin(const char *directory, size_t columns,
 
 size_t gx_store_rows_total(const struct gx_store_rows *rows)
 {
-  return gx_hdf5_rows_total(rows->rows);
+  return rows->total;
+}
+
+struct gx_hdf5_rows *gx_store_rows_hdf5(struct gx_store_rows *rows)
+{
+  return open_again(rows) ? NULL : rows->rows;
 }
 
 /* Whether there is a line that no row has had. */
@@ -82,8 +111,9 @@ static int add_timing(struct gx_store_rows *rows, struct gx_table *table)
 
 struct gx_table *gx_store_rows_next(struct gx_store_rows *rows, size_t most)
 {
-  struct gx_table *table = gx_hdf5_rows_next(rows->rows, most, 2);
+  struct gx_table *table = open_again(rows) ? NULL : gx_hdf5_rows_next(rows->rows, most, 2);
   if (!table) return NULL;
+  rows->next += table->rows;
   const bool damaged = has_ours(table); /* the last two have no names yet */
   if (!damaged && !add_timing(rows, table)) return table;
   if (damaged)
@@ -97,8 +127,8 @@ struct gx_table *gx_store_rows_next(struct gx_store_rows *rows, size_t most)
 void gx_store_rows_end(struct gx_store_rows *rows)
 {
   if (!rows) return;
-  gx_hdf5_rows_end(rows->rows);
-  if (rows->timing) fclose(rows->timing);
+  gx_store_rows_pause(rows);
   free(rows->study);
+  free(rows->timing_path);
   free(rows);
 }

@@ -14,7 +14,7 @@ import tempfile
 import unittest
 
 PROGRAM, ROOT = (pathlib.Path(a).resolve() for a in sys.argv[1:3])
-COMMANDS = ["run", "check", "init", "compare", "plot", "advise", "spectrum", "list", "balance"]
+COMMANDS = ["run", "check", "init", "compare", "plot", "advise", "spectrum", "list", "balance", "merge"]
 TOPICS = ["spaces", "bases", "clocks", "problems", "materials", "parameters"]
 STUDY = """title: small
 problem: {name: bar-neo-hookean}

@@ -250,7 +250,6 @@ static void test_journals_have_numbers_of_their_own(void **state)
   for (int n = 2; n <= 3; n++) {
     snprintf(path, sizeof path, "%s/.journal-%d.partial", f->directory, n);
     assert_int_equal(access(path, F_OK), 0);
-    assert_int_equal(unlink(path), 0);
   }
   char *message;
   size_t length;
@@ -259,10 +258,9 @@ static void test_journals_have_numbers_of_their_own(void **state)
   fclose(errors);
   assert_non_null(strstr(message, "/nowhere/.journal-1.partial: No such file"));
   free(message);
-  FILE *quiet = tmpfile();
-  gx_journal_close(one);
-  gx_journal_close(two);
-  fclose(quiet);
+  assert_int_equal(gx_journal_close(one), 0);
+  assert_int_equal(gx_journal_close(two), 0);
+  assert_int_equal(access(path, F_OK), -1); /* nothing was in it */
 }
 
 /* What is written to a file that has vanished would be lost without a word. */

@@ -1,0 +1,379 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Nothing is lost: runs that are killed at random instants, interrupted, divided and joined end with the bytes of an undisturbed run.
+
+usage: test_kill.py GRIDCROSS [--kills N] [--seed N] [unittest arguments]"""
+import argparse
+import pathlib
+import random
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+parser = argparse.ArgumentParser()
+parser.add_argument("gridcross", type=pathlib.Path)
+parser.add_argument("--kills", type=int, default=24)
+parser.add_argument("--seed", type=int, default=random.randrange(10**6))
+OPTIONS, REST = parser.parse_known_args()
+PROGRAM = OPTIONS.gridcross.resolve()
+
+# Cases of unequal length, with history, spectra and snapshots, that end in several ways.
+STUDY = """title: killed
+problem: {name: bar-neo-hookean}
+mesh: {cells: [4, 8, 12, 16, 24, 32]}
+method: {space: [standard, moving-mesh], degree: [1, 2]}
+time: {cfl: [0.1, 0.4, 3], periods: 1}
+output: {histories: 8, spectra: 64, snapshots: 300}
+"""
+CASES = 72
+LONG = """problem: {name: bar-linear}
+mesh: {cells: [4, 5, 200]}
+time: {dt: 1e-6, steps: 1000000000000}
+output: {measures: final}
+"""
+# two cases that end at once, one that does not within a year
+TWO_SHORT = LONG.replace("steps: 1000000000000", "steps: [10, 1000000000000]").replace("[4, 5, 200]", "[4, 200]")
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.dir = pathlib.Path(temporary.name)
+        (self.dir / "study.yaml").write_text(STUDY)
+
+    def call(self, *args, code=0, **more):
+        done = subprocess.run([PROGRAM, *map(str, args)], cwd=self.dir, capture_output=True, timeout=300, text=True, **more)
+        self.assertEqual(done.returncode, code, f"{args}: {done.stdout[-300:]}\n{done.stderr[-800:]}")
+        return done
+
+    def start(self, *args):
+        return subprocess.Popen([PROGRAM, *map(str, args)], cwd=self.dir, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+
+    def names(self, directory):
+        return sorted(p.name for p in (self.dir / directory).iterdir())
+
+    def bytes_of(self, directory):
+        """Of a finished study, by name; what differs from run to run is left out."""
+        names = self.names(directory)
+        self.assertTrue(self.is_finished(names), names)
+        return {name: (self.dir / directory / name).read_bytes() for name in names if name not in ("run.json", "timing.csv")}
+
+    def is_finished(self, names):
+        return not any(name.startswith(".") for name in names) and {"run.json", "study.h5", "table.csv", "timing.csv"} <= set(names)
+
+    def undisturbed(self, *args):
+        start = time.monotonic()
+        self.call("run", "study.yaml", "-o", "whole", "-q", *args)
+        return self.bytes_of("whole"), time.monotonic() - start
+
+    def records(self, directory):
+        """Whole records of the journals, by the number that each begins with."""
+        magic = (0x65736163BEEFCAFE).to_bytes(8, sys.byteorder)
+        return sum(p.read_bytes().count(magic) for p in (self.dir / directory).glob(".journal-*.partial"))
+
+
+class Kill(Case):
+    def test_a_run_killed_at_random_instants_ends_as_an_undisturbed_one(self):
+        chance = random.Random(OPTIONS.seed)
+        whole, seconds = self.undisturbed("-j", "2")
+        kills = finished = kept = 0
+        while kills < OPTIONS.kills:
+            shutil.rmtree(self.dir / "killed", ignore_errors=True)
+            self.call("run", "study.yaml", "-o", "killed", "--set", "mesh.cells=4", "--set", "time.cfl=3", "-q")
+            older = self.bytes_of("killed") if chance.random() < 0.3 else None
+            if not older:
+                shutil.rmtree(self.dir / "killed")
+            process, resume = self.start("run", "study.yaml", "-o", "killed", "-q", "-j", "2"), []
+            while kills < OPTIONS.kills:
+                time.sleep(chance.uniform(0, 1.1 * seconds) * chance.choice([0.1, 0.3, 1]))
+                process.kill()
+                process.communicate()
+                kills += 1
+                with self.subTest(seed=OPTIONS.seed, kill=kills):
+                    now = self.names("killed") if (self.dir / "killed").exists() else []
+                    if "study.h5" in now:  # the old study or the new one, whole in either case
+                        self.assertIn((self.dir / "killed" / "study.h5").read_bytes(), [whole["study.h5"], older and older["study.h5"]])
+                        self.call("compare", "killed")
+                    before = self.records("killed") if now else 0
+                    kept += before
+                    if before:
+                        self.assertIn("--resume", self.call("run", "study.yaml", "-o", "killed", code=2).stderr)
+                        self.assertEqual(self.records("killed"), before)
+                if process.returncode == 0 or (now and self.bytes_are(whole)):
+                    finished += 1
+                    break
+                if older and not before:
+                    break  # nothing was under way, and --resume refuses the other study
+                if chance.random() < 0.25:
+                    self.resume(whole)
+                    break
+                process = self.start("run", "study.yaml", "-o", "killed", "-q", "-j", "2", "--resume")
+            else:
+                if not older or self.records("killed"):
+                    self.resume(whole)
+        print(f"{kills} kills, seed {OPTIONS.seed}: {kept} finished cases seen in journals, {finished} runs had ended before")
+
+    def bytes_are(self, whole):
+        return self.is_finished(self.names("killed")) and self.bytes_of("killed") == whole
+
+    def resume(self, whole):
+        self.call("run", "study.yaml", "-o", "killed", "-q", "-j", "2", "--resume")
+        self.assertTrue(self.bytes_of("killed") == whole, f"seed {OPTIONS.seed}")
+
+
+class Interrupt(Case):
+    def interrupt(self, number, directory, *more):
+        """Once two cases are done, as an ear on the journals tells."""
+        (self.dir / "long.yaml").write_text(TWO_SHORT)
+        process = self.start("run", "long.yaml", "-o", directory, "-j", "2", *more)
+        deadline = time.monotonic() + 60
+        while not (self.dir / directory).exists() or self.records(directory) < 2:
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.02)
+        time.sleep(0.1)
+        start = time.monotonic()
+        process.send_signal(number)
+        err = process.communicate(timeout=60)[1].decode()
+        return process.returncode, err, time.monotonic() - start
+
+    def test_signals_end_a_run_soon_and_say_how_to_go_on(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(number=number):
+                directory = f"d{int(number)}"
+                code, err, seconds = self.interrupt(number, directory)
+                self.assertEqual(code, 128 + number)
+                self.assertIn("2 of 4 cases are done and kept in " + directory, err)
+                self.assertIn("--resume", err)
+                self.assertLess(seconds, 5)  # one second and a busy machine
+                self.assertEqual(self.records(directory), 2)
+
+    def test_what_is_done_is_not_done_again(self):
+        (self.dir / "study.yaml").write_text(STUDY)
+        whole, seconds = self.undisturbed()
+        process = self.start("run", "study.yaml", "-o", "cut", "-j", "1")
+        while not (self.dir / "cut").exists() or self.records("cut") < 5:
+            time.sleep(0.005)
+        process.send_signal(signal.SIGINT)
+        err = process.communicate()[1].decode()
+        if process.returncode == 0:
+            self.skipTest("was done before")
+        done = int(re.search(rf"(\d+) of {CASES} cases are done and kept", err)[1])
+        err = self.call("run", "study.yaml", "-o", "cut", "--resume").stderr
+        self.assertIn(f"note: {done} of {CASES} cases are done already", err)
+        self.assertEqual(self.bytes_of("cut"), whole)
+
+    def test_nothing_done_leaves_nothing(self):
+        (self.dir / "long.yaml").write_text(LONG)
+        process = self.start("run", "long.yaml", "-o", "none", "-j", "2")
+        while not list(self.dir.glob("none/.journal*")):
+            time.sleep(0.01)
+        time.sleep(0.1)
+        process.send_signal(signal.SIGINT)
+        self.assertIn(b"0 of 3 cases", process.communicate()[1])
+        self.assertEqual(self.names("none"), [])
+
+
+class Resume(Case):
+    def cut(self, *args, file="study.yaml"):
+        """A study of which half is there: the journal of a whole run, cut in two."""
+        shutil.rmtree(self.dir / "cut", ignore_errors=True)
+        process = self.start("run", file, "-o", "cut", "-j", "1", "-q", *args)
+        while not (self.dir / "cut").exists() or self.records("cut") < 3:
+            self.assertIsNone(process.poll())
+            time.sleep(0.005)
+        process.kill()
+        process.communicate()
+
+    def test_another_study_is_refused_with_what_differs(self):
+        self.cut()
+        before = {p.name: p.read_bytes() for p in (self.dir / "cut").iterdir()}
+        (self.dir / "other.yaml").write_text(STUDY + "# a remark\n")
+        for args, words in [(["other.yaml"], ["text of the run file"]), (["study.yaml", "--set", "mesh.cells=4"], ["cases"]),
+                            (["study.yaml", "--repeats", "3"], ["repeats (0 there, 3 here)"]),
+                            (["study.yaml", "--shard", "1/2"], ["shard (1/1 there, 1/2 here)"])]:
+            for resume in ([], ["--resume"]):
+                with self.subTest(args=args, resume=resume):
+                    err = self.call("run", *args, "-o", "cut", *resume, code=2).stderr
+                    for word in ["another study", "-o", *words]:
+                        self.assertIn(word, err)
+        self.assertIn("add --resume", self.call("run", "study.yaml", "-o", "cut", code=2).stderr)
+        self.assertEqual({p.name: p.read_bytes() for p in (self.dir / "cut").iterdir()}, before)
+
+    def test_a_finished_study(self):
+        whole, _ = self.undisturbed()
+        times = (self.dir / "whole" / "timing.csv").read_bytes()
+        done = self.call("run", "study.yaml", "-o", "whole", "--resume")
+        self.assertIn(f"{CASES} of {CASES} cases are done already", done.stderr)
+        self.assertEqual(len(done.stdout.splitlines()), CASES + 2)
+        self.assertEqual((self.dir / "whole" / "timing.csv").read_bytes(), times)
+        for args, word in [(["--set", "mesh.cells=4"], "cases"), (["--repeats", "2"], "repeats"), (["--shard", "1/3"], "shard")]:
+            err = self.call("run", "study.yaml", "-o", "whole", "--resume", *args, code=2).stderr
+            self.assertIn("another study", err)
+            self.assertIn(word, err)
+        self.assertEqual(self.bytes_of("whole"), whole)
+        self.call("run", "study.yaml", "-o", "whole", "-q", "--set", "mesh.cells=4")  # without --resume: replaced
+        self.assertNotEqual(self.bytes_of("whole"), whole)
+
+    def test_an_empty_place_is_begun(self):
+        whole, _ = self.undisturbed()
+        self.call("run", "study.yaml", "-o", "new", "-q", "--resume")
+        self.assertEqual(self.bytes_of("new"), whole)
+
+    def test_damaged_and_foreign_journals(self):
+        whole, _ = self.undisturbed()
+        self.cut()
+        path = next((self.dir / "cut").glob(".journal-*.partial"))
+        good = path.read_bytes()
+        chance = random.Random(OPTIONS.seed)
+        first = good.index((0x65736163BEEFCAFE).to_bytes(8, sys.byteorder))
+        for trial in range(12):
+            bad = bytearray(good)
+            for _ in range(chance.choice([1, 3, 40])):
+                bad[chance.randrange(first, len(bad))] ^= 1 << chance.randrange(8)
+            path.write_bytes(bad[: chance.randrange(first, len(bad) + 1)] if chance.random() < 0.5 else bad)
+            with self.subTest(seed=OPTIONS.seed, trial=trial):
+                self.call("run", "study.yaml", "-o", "cut", "-q", "--resume")
+                self.assertTrue(self.bytes_of("cut") == whole)
+        path.write_bytes(b"\0" + good[1:])  # nobody knows whose results these are
+        for resume in ([], ["--resume"]):
+            self.assertIn("is damaged or no journal", self.call("run", "study.yaml", "-o", "cut", *resume, code=2).stderr)
+        self.assertEqual(path.read_bytes(), b"\0" + good[1:])
+        path.write_bytes(good[: first // 2])  # what a kill at the very beginning leaves
+        self.call("run", "study.yaml", "-o", "cut", "-q")
+        self.assertEqual(self.bytes_of("cut"), whole)
+
+
+class Places(Case):
+    def test_two_runs_in_one_place(self):
+        (self.dir / "long.yaml").write_text(LONG)
+        process = self.start("run", "long.yaml", "-o", "busy", "-j", "1")
+        while not list(self.dir.glob("busy/.journal*")):
+            time.sleep(0.01)
+        for resume in ([], ["--resume"]):
+            self.assertIn("another run is under way", self.call("run", "long.yaml", "-o", "busy", *resume, code=2).stderr)
+        process.kill()
+        process.communicate()
+
+    def test_a_vanished_directory_is_an_error(self):
+        (self.dir / "long.yaml").write_text(TWO_SHORT.replace("[10, 1000000000000]", "[10, 20, 30000, 60000]"))
+        process = self.start("run", "long.yaml", "-o", "gone", "-j", "1")
+        while not (self.dir / "gone").exists() or self.records("gone") < 2:
+            self.assertIsNone(process.poll())
+            time.sleep(0.002)
+        shutil.rmtree(self.dir / "gone")
+        err = process.communicate(timeout=100)[1].decode()
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("gone", err)
+        self.assertIn("No such file or directory", err)
+
+    def test_a_full_disk(self):
+        probe = subprocess.run(["unshare", "-rm", "true"], capture_output=True)
+        if probe.returncode:
+            self.skipTest("no disk of one's own to fill")
+        whole, _ = self.undisturbed()
+        size = sum(p.stat().st_size for p in (self.dir / "whole").iterdir())
+        script = f"""set -u; cd {self.dir}; mkdir small; mount -t tmpfs -o size=$1 none small
+            {PROGRAM} run study.yaml -o small/d -q >/dev/null 2>small.err; echo $? >small.code
+            mount -o remount,size=100m small; ls -A small/d >small.names
+            {PROGRAM} run study.yaml -o small/d -q --resume >/dev/null && rm -rf big && cp -r small/d big"""
+        for share in (0.05, 0.3, 0.5, 0.8):
+            with self.subTest(share=share):
+                shutil.rmtree(self.dir / "small", ignore_errors=True)
+                done = subprocess.run(["unshare", "-rm", "sh", "-c", script, "sh", str(int(share * size))], capture_output=True, text=True)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual((self.dir / "small.code").read_text(), "1\n")
+                err = (self.dir / "small.err").read_text()
+                self.assertIn("No space left on device", err)
+                self.assertIn("--resume", err)
+                self.assertTrue(all(n.startswith((".journal-", "case-")) for n in (self.dir / "small.names").read_text().split()))
+                self.assertTrue(self.bytes_of("big") == whole)
+
+
+class Shards(Case):
+    def shard(self, *which, shards=3):
+        for i in which:
+            self.call("run", "study.yaml", "--shard", f"{i}/{shards}", "-q", "-j", "2")
+
+    def place(self, i, shards=3):
+        return f"study-{i}-of-{shards}.study"
+
+    def test_shards_joined_are_the_whole(self):
+        whole, _ = self.undisturbed("-j", "1")
+        for shards in (3, 11):  # few stay open, many do not
+            with self.subTest(shards=shards):
+                self.shard(*range(1, shards + 1), shards=shards)
+                places = [self.place(i, shards) for i in range(1, shards + 1)]
+                random.Random(OPTIONS.seed).shuffle(places)
+                self.call("merge", *places, places[0], "-o", f"joined{shards}")
+                self.assertTrue(self.bytes_of(f"joined{shards}") == whole)
+                timing = (self.dir / f"joined{shards}" / "timing.csv").read_text().splitlines()
+                table = (self.dir / f"joined{shards}" / "table.csv").read_text().splitlines()
+                self.assertEqual([line.split(",")[0] for line in timing], [line.split(",")[0] for line in table])
+                self.assertGreater(len([line for line in timing if line.split(",")[1]]), CASES / 2)
+        self.call("run", "study.yaml", "-o", "joined3", "--resume", "-q")
+        self.call("compare", self.place(1))
+
+    def test_an_interrupted_shard_is_resumed(self):
+        whole, _ = self.undisturbed()
+        self.shard(1, 3)
+        process = self.start("run", "study.yaml", "--shard", "2/3", "-q", "-j", "1")
+        while not (self.dir / self.place(2)).exists() or self.records(self.place(2)) < 1:
+            time.sleep(0.002)
+        process.kill()
+        process.communicate()
+        if (self.dir / self.place(2) / "study.h5").exists():
+            self.skipTest("was done before")
+        places = [self.place(i) for i in (1, 2, 3)]
+        self.assertIn("holds no finished study", self.call("merge", *places, "-o", "joined", code=2).stderr)
+        self.call("run", "study.yaml", "--shard", "2/3", "-q", "--resume")
+        self.call("merge", *places, "-o", "joined")
+        self.assertTrue(self.bytes_of("joined") == whole)
+
+    def test_what_does_not_belong_together_is_refused(self):
+        self.shard(1, 2)
+        self.call("run", "study.yaml", "--shard", "3/3", "-q", "--set", "time.periods=2")
+        self.call("run", "study.yaml", "--shard", "3/4", "-q")
+        self.call("run", "study.yaml", "-o", "whole", "-q")
+        (self.dir / "mine").mkdir()
+        (self.dir / "mine" / "letter").write_text("dear")
+        one, two = self.place(1), self.place(2)
+        for args, words in [([one, two, "-o", "out"], ["missing of 3 shards: 3"]), ([two, "-o", "out"], ["missing of 3 shards: 1, 3"]),
+                            ([one, two, self.place(3), "-o", "out"], ["another study", "cases"]),
+                            ([one, two, self.place(3, 4), "-o", "out"], ["one of 4 shards"]),
+                            ([one, two, "whole", "-o", "out"], ["whole: holds a whole study"]),
+                            ([one, two, "nowhere", "-o", "out"], ["nowhere"]), ([one, two, "mine", "-o", "out"], ["no finished study"]),
+                            ([one, two], ["-o DIR"]), ([one, "-o", one], ["is a shard"])]:
+            with self.subTest(args=args):
+                err = self.call("merge", *args, code=2).stderr
+                for word in words:
+                    self.assertIn(word, err)
+                self.assertFalse((self.dir / "out").exists())
+        shutil.copytree(self.dir / two, self.dir / "twice")
+        path = self.dir / "twice" / "study.h5"
+        old = path.read_bytes()
+        path.write_bytes(old.replace(b"killed", b"kilLed", 1))
+        self.assertIn("its results differ", self.call("merge", one, two, "twice", "-o", "out", code=2).stderr)
+        path.write_bytes(old[: len(old) // 2])
+        self.assertIn("twice", self.call("merge", one, two, "twice", "-o", "out", code=2).stderr)
+        shutil.rmtree(self.dir / self.place(3))
+        self.shard(3)
+        self.assertIn("letter", self.call("merge", *(self.place(i) for i in (1, 2, 3)), "-o", "mine", code=2).stderr)
+
+    def test_which_shards_there_are(self):
+        for text in ("0/3", "4/3", "1", "1/", "/3", "a/3", "1/3x", "-1/3", "1/0", "", " 1/3", "1/ 3", "99999999999999999999/3"):
+            with self.subTest(text=text):
+                self.assertIn("--shard takes i/n", self.call("run", "study.yaml", "--shard", text, code=2).stderr)
+        self.assertIn(f"{CASES} cases", self.call("run", "study.yaml", "--shard", "1/99", code=2).stderr)
+        self.call("run", "study.yaml", "--shard", "1/1", "-q", "-o", "one")
+        whole, _ = self.undisturbed()
+        self.assertEqual(self.bytes_of("one"), whole)
+
+
+if __name__ == "__main__":
+    print(f"seed {OPTIONS.seed}", flush=True)
+    unittest.main(argv=[sys.argv[0], *REST])
