@@ -78,21 +78,28 @@ static void remove_files(const struct recording *recording)
   }
 }
 
-/* Closes what is open. */
+/* Closes what is open. -1 with the first errno that was told; 0: HDF5's own. */
 static int close_files(struct recording *recording)
 {
   struct gx_recorder *recorder = recording->recorder;
+  int reason = 0;
   for (int f = XMF; f <= GRID; f++) {
     if (!recording->xdmf[f]) continue;
     gx_xdmf_end(recording->xdmf[f]);
-    recording->failed |= ferror(recording->xdmf[f]) != 0;
-    if (fclose(recording->xdmf[f])) recording->failed = true;
+    bool failed = fflush(recording->xdmf[f]) || ferror(recording->xdmf[f]);
+    if (failed && !reason) reason = errno;
+    if (fclose(recording->xdmf[f]) && !failed) {
+      failed = true;
+      reason = errno;
+    }
+    recording->failed |= failed;
     recording->xdmf[f] = NULL;
   }
   pthread_mutex_lock(&recorder->lock);
   if (recording->file && gx_openpmd_close(recording->file)) recording->failed = true;
   pthread_mutex_unlock(&recorder->lock);
   recording->file = NULL;
+  if (reason) errno = reason;
   return recording->failed ? -1 : 0;
 }
 

@@ -114,6 +114,8 @@ class Kill(Case):
                     break
                 process = self.start("run", "study.yaml", "-o", "killed", "-q", "-j", "2", "--resume")
             else:
+                process.kill()
+                process.communicate()
                 if not older or self.records("killed"):
                     self.resume(whole)
         print(f"{kills} kills, seed {OPTIONS.seed}: {kept} finished cases seen in journals, {finished} runs had ended before")
