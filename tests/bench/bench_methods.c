@@ -100,6 +100,7 @@ static struct peaks measure_peaks(void)
     keep += array[2 * n + (size_t)r];
   }
   free(array);
+  if (isnan(keep)) exit(1);
   return peaks;
 }
 
