@@ -3,6 +3,7 @@
 #ifndef GRIDCROSS_PLOT_H
 #define GRIDCROSS_PLOT_H
 
+#include <stdbool.h>
 #include <stdio.h>
 
 #include <gridcross/table.h>
@@ -24,6 +25,7 @@ struct gx_plot {
   const char *const *by; /* [bys] paths that lead the labels of lines; the other axes follow */
   size_t points;
   const struct gx_plot_point *point; /* [points], lines: drawn as circles */
+  double time;                       /* s, field: of the snapshot nearest to it; NaN: the last */
   const char *output;                /* ends in .svg, .png or .pdf */
 };
 
@@ -37,8 +39,9 @@ enum gx_plot_status {
 struct gx_plot_kind {
   const char *name;
   const char *help;
-  const char *y;      /* what --y may name, the default first */
+  const char *y;      /* what --y may name, the default first; NULL: nothing to choose */
   const char *across; /* what it is drawn against, in words; NULL: --x names it */
+  bool at_time;       /* --time names one */
   const char *example;
   enum gx_plot_status (*draw)(const struct gx_plot *plot, FILE *errors);
   enum gx_plot_status (*front)(const struct gx_plot *plot, FILE *errors); /* the same with --front; NULL: it has none */

@@ -2,6 +2,7 @@
 /* gridcross plot: figures of studies. */
 #include "command.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -10,6 +11,7 @@
 #include <gridcross/store.h>
 
 #include "../core/nearest.h"
+#include "../study/number.h"
 #include "text.h"
 
 static const struct gx_option option[] = {
@@ -18,6 +20,7 @@ static const struct gx_option option[] = {
     {0, "y", "COLUMN", "what is drawn; each kind says below what there is, its default first"},
     {0, "by", "PATH",
      "one line a value, shown by its colour; as often as wanted; the other axes follow in the legend, but with --front"},
+    {0, "time", "SECONDS", "field: of the snapshot nearest to this time; default: the last"},
     {0, "front", NULL, "lines: error against cost of every case, result.seconds or --x, and the front of the cheapest"},
     GX_COMMAND_WHERE,
     {0},
@@ -30,13 +33,13 @@ static void print_kinds(int width, FILE *out)
   fputs("kinds, the first where none is named:\n", out);
   for (const struct gx_plot_kind *const *k = gx_plot_family; *k; k++) {
     gx_text_print((*k)->help, fprintf(out, "  %-10s", (*k)->name), INDENT, width, out);
-    gx_text_print((*k)->y, fprintf(out, "%*s--y ", INDENT, ""), INDENT + 4, width, out);
+    if ((*k)->y) gx_text_print((*k)->y, fprintf(out, "%*s--y ", INDENT, ""), INDENT + 4, width, out);
     fprintf(out, "%*s%s\n", INDENT, "", (*k)->example);
   }
   putc('\n', out);
   gx_text_print(
       "Without gnuplot the figure is missing and the exit code 1, but FIGURE.gp and FIGURE.csv are written: gnuplot FIGURE.gp "
-      "draws it elsewhere. Cases that failed are left out and counted in the figure.",
+      "draws it elsewhere. Cases that failed are left out and counted in the figure; xt and field show them as far as they came.",
       0, 0, width, out);
 }
 
@@ -62,10 +65,17 @@ static int check_kind(const char *name)
 /* Whether the kind can do what the options ask for. */
 static int check_options(const struct gx_options *options, const struct gx_plot_kind *kind)
 {
+  const char *time = gx_options_value(options, "time");
   if (!gx_options_value(options, "output"))
     fputs("gridcross plot: name the figure: -o FIGURE.svg, FIGURE.png or FIGURE.pdf\n", stderr);
   else if (kind->across && gx_options_value(options, "x"))
     fprintf(stderr, "gridcross plot: the kind %s is drawn against %s: leave out --x\n", kind->name, kind->across);
+  else if (!kind->y && gx_options_value(options, "y"))
+    fprintf(stderr, "gridcross plot: the kind %s draws one thing alone: leave out --y\n", kind->name);
+  else if (!kind->at_time && time)
+    fprintf(stderr, "gridcross plot: the kind %s is of no one time: leave out --time\n", kind->name);
+  else if (time && gx_number_real(time, &(double){0}))
+    fprintf(stderr, "gridcross plot: --time takes seconds, not '%s'\n", time);
   else if (!kind->front && gx_options_value(options, "front"))
     fprintf(stderr, "gridcross plot: the kind %s has no front: leave out %s or --front\n", kind->name, kind->name);
   else
@@ -78,6 +88,8 @@ static int plot(const struct gx_options *options, const struct gx_plot_kind *kin
 {
   char *title = studies->count == 1 ? gx_store_read_title(options->operand[0], stderr) : NULL;
   if (studies->count == 1 && !title) return GX_EXIT_USAGE;
+  double time = NAN;
+  if (gx_options_value(options, "time")) gx_number_real(gx_options_value(options, "time"), &time);
   const struct gx_plot figure = {
       .studies = studies->count,
       .table = (const struct gx_table *const *)studies->table,
@@ -90,6 +102,7 @@ static int plot(const struct gx_options *options, const struct gx_plot_kind *kin
       .by = by,
       .points = points,
       .point = point,
+      .time = time,
       .output = gx_options_value(options, "output"),
   };
   enum gx_plot_status status = (gx_options_value(options, "front") ? kind->front : kind->draw)(&figure, stderr);
@@ -125,6 +138,7 @@ static const struct gx_example example[] = {
     {"gridcross plot quickstart.study -o error.svg", "error against cells, both logarithmic"},
     {"gridcross plot quickstart.study --y result.energy.drift --by method.space -o drift.pdf", "one colour a space"},
     {"gridcross plot choice.study --front -o front.svg", "error against cost, and which cases are cheapest"},
+    {"gridcross plot quickstart.study xt --where mesh.cells=16 -o xt.svg", "paths of particles over the edges of cells"},
     {0},
 };
 
@@ -133,7 +147,7 @@ const struct gx_command gx_command_plot = {
     .operands = "DIR... [KIND]",
     .least = 1,
     .most = -1,
-    .help = "Draw a figure of studies by gnuplot: errors and other results as lines, histories, errors by wavenumber.",
+    .help = "Draw a figure of studies by gnuplot: errors and other results as lines, histories, particles, errors by wavenumber.",
     .option = option,
     .more = print_kinds,
     .example = example,

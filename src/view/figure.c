@@ -167,7 +167,12 @@ int gx_figure_add(struct gx_figure *figure, struct gx_value x, struct gx_value y
 
 int gx_figure_name(struct gx_figure *figure, const char *label)
 {
-  return gx_table_set(figure->data, figure->data->rows - 1, GX_FIGURE_LABEL, (struct gx_value){.type = GX_TEXT, .text = label});
+  char *text = strdup(label);
+  if (text) one_line(text);
+  int failed = !text || gx_table_set(figure->data, figure->data->rows - 1, GX_FIGURE_LABEL,
+                                     (struct gx_value){.type = GX_TEXT, .text = text});
+  free(text);
+  return failed;
 }
 
 int gx_figure_colour(struct gx_figure *figure, double value)

@@ -21,7 +21,7 @@ enum gx_figure_style {
   GX_FIGURE_STEPS,
   GX_FIGURE_PRINTED, /* points of a paper: circles */
   GX_FIGURE_CURVES,  /* thin lines, without points */
-  GX_FIGURE_GUIDES,  /* thin grey lines, behind the others */
+  GX_FIGURE_GUIDES,  /* dark lines, behind the others */
   GX_FIGURE_EXACT,   /* a black line */
   GX_FIGURE_COLOURED /* points in the colour of their value */
 };

@@ -73,7 +73,7 @@ static void put_styles(const struct gx_figure *figure, FILE *out)
     const struct gx_figure_line *line = &figure->line[i];
     bool open = line->marker % GX_FIGURE_MARKERS >= GX_FIGURE_SHAPES, many = line->style != GX_FIGURE_LINES_POINTS;
     fprintf(out, "set style line %zu linecolor rgb '%s' linewidth %s dashtype %d", i + 1,
-            colours[line->colour % GX_FIGURE_COLOURS], line->style == GX_FIGURE_CURVES ? "0.7" : "1.6",
+            colours[line->colour % GX_FIGURE_COLOURS], line->style == GX_FIGURE_CURVES ? "0.8" : "1.6",
             line->dash % GX_FIGURE_DASHES + 1);
     if (has_markers(line))
       fprintf(out, " pointtype %d pointsize %s", markers[line->marker % GX_FIGURE_MARKERS], many ? "0.6" : "0.9");
@@ -123,7 +123,7 @@ static void put_line(const struct gx_figure *figure, size_t index, const char *s
     fprintf(out, "lines linestyle %zu", index + 1);
     break;
   case GX_FIGURE_GUIDES:
-    fputs("lines linewidth 0.6 linecolor rgb '#999999'", out);
+    fputs("lines linewidth 1.2 linecolor rgb '#303030'", out);
     break;
   case GX_FIGURE_EXACT:
     fputs("lines linewidth 1 linecolor rgb '#000000'", out);
@@ -175,7 +175,8 @@ void gx_script_write(const struct gx_figure *figure, const char *stem, const cha
   gx_script_axis_label("x", &figure->data->column[GX_FIGURE_X], out);
   gx_script_axis_label("y", &figure->data->column[GX_FIGURE_Y], out);
   gx_script_axis_scales(figure, out);
-  fputs("set border 3\nset tics nomirror\nset grid linecolor rgb '#d0d0d0' linewidth 1\n", out);
+  fputs("set border 3\nset tics nomirror\n", out);
+  if (!figure->panels) fputs("set grid linecolor rgb '#d0d0d0' linewidth 1\n", out); /* among edges of cells it would confuse */
   put_triangles(figure, out);
   bool nyquist = put_nyquist(figure, out);
   put_styles(figure, out);

@@ -101,7 +101,7 @@ void gx_script_axis_scales(const struct gx_figure *figure, FILE *out)
  * throughout. */
 void gx_script_axis_colours(const struct gx_figure *figure, FILE *out)
 {
-  static const char both[] = "0 '#0072B2', 0.5 '#f2f2f2', 1 '#D55E00'";
+  static const char both[] = "0 '#0072B2', 0.5 '#dddddd', 1 '#D55E00'";
   static const char one[] = "0 '#440154', 1 '#472d7b', 2 '#3b528b', 3 '#2c728e', 4 '#21918c', 5 '#28ae80', 6 '#5ec962', "
                             "7 '#addc30', 8 '#fde725'";
   struct gx_figure_axis axis = figure->value;

@@ -13,11 +13,16 @@
 enum { LEFT = 105, TOP = 58, BOTTOM = 62, NOTE = 24, GAP = 20, KEY_TOP = 40, LINE = 21, SAMPLE = 90, LETTER = 8 };
 enum { WIDTH = 550, HEIGHT = 360, MOST_HEIGHT = 480 };                                        /* of the axes of one plot */
 enum { PANELS = 3, PANEL_WIDTH = 330, PANEL_HEIGHT = 360, PANEL_GAP = 36, PANEL_TITLE = 24 }; /* of one beside others */
-enum { BAR_GAP = 30, BAR_WIDTH = 16, BAR_TEXT = 85 };
+enum { BAR_GAP = 30, BAR_WIDTH = 16, BAR_TEXT = 115 };
 
 static bool has_note(const struct gx_figure *figure)
 {
   return figure->note && *figure->note;
+}
+
+static bool has_panel_titles(const struct gx_figure *figure)
+{
+  return figure->panels > 1 || (figure->panels && *figure->panel[0]);
 }
 
 static bool is_coloured(const struct gx_figure *figure)
@@ -64,7 +69,7 @@ struct gx_script_layout gx_script_layout_choose(const struct gx_figure *figure)
   };
   if (figure->equal) keep_shape(figure, &layout);
   double rows = (double)((panels - 1) / layout.columns + 1), columns = (double)layout.columns;
-  layout.top = TOP + (figure->panels ? PANEL_TITLE : 0);
+  layout.top = TOP + (has_panel_titles(figure) ? PANEL_TITLE : 0);
   layout.right = LEFT + columns * layout.across + (columns - 1) * PANEL_GAP;
   layout.width = layout.right + GAP + (layout.key ? SAMPLE + LETTER * letters : 0);
   if (is_coloured(figure)) layout.width = fmax(layout.width, layout.right + BAR_GAP + BAR_WIDTH + BAR_TEXT);

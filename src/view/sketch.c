@@ -158,11 +158,23 @@ bool gx_sketch_numeric(const struct gx_table *table, size_t column, const char *
   return false;
 }
 
+/* Takes the text, which follows what the figure's note says already. Returns 0, or -1 when memory runs out. */
+static int add_note(struct gx_figure *figure, char *text)
+{
+  char *before = figure->note;
+  size_t room = text ? strlen(text) + (before ? strlen(before) : 0) + 3 : 0;
+  figure->note = text ? malloc(room) : NULL;
+  if (figure->note) snprintf(figure->note, room, "%s%s%s", before ? before : "", before && *before && *text ? "; " : "", text);
+  free(before);
+  free(text);
+  return figure->note ? 0 : -1;
+}
+
 enum gx_plot_status gx_sketch_draw(struct gx_sketch *sketch, const char *name, FILE *errors)
 {
   gx_left_out_tell(&sketch->left_out, errors);
   if (sketch->figure.lines) {
-    if (!(sketch->figure.note = gx_left_out_text(&sketch->left_out))) return gx_sketch_no_memory(errors);
+    if (add_note(&sketch->figure, gx_left_out_text(&sketch->left_out))) return gx_sketch_no_memory(errors);
     return gx_figure_draw(&sketch->figure, sketch->plot->output, errors);
   }
   if (!sketch->left_out.empty)

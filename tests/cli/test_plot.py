@@ -350,7 +350,8 @@ class Messages(Case):
             (["--y", "result.crosings"], "did you mean result.crossings?"), (["--x", "mesh.cell"], "did you mean mesh.cells?"),
             (["--by", "method.spce"], "did you mean method.space?"), (["--x", "method.space"], "not a number"),
             (["--y", "result.status"], "not a number"), (["--x", "mesh.cells", "--by", "mesh.cells"], "both"),
-            (["--y", "result.reason"], "not a number"), (["histry"], "did you mean history?"), (["xt"], "lines, history and spectrum"),
+            (["--y", "result.reason"], "not a number"), (["histry"], "did you mean history?"),
+            (["xt"], "set output.snapshots"), (["quiver"], "lines, history, xt, field and spectrum"),
             (["none/"], "none"), (["history", "--x", "time"], "leave out --x"),
             (["spectrum", "--x", "wavenumber"], "leave out --x"), (["spectrum", "--y", "strain"], "no spectrum"),
             (["spectrum"], "set output.spectra"), (["spektrum"], "did you mean spectrum?"), (["history", "--y", "status"], "no history"),
@@ -365,7 +366,7 @@ class Messages(Case):
 
     def test_help_names_every_kind(self):
         text = subprocess.run([PROGRAM, "plot", "--help"], check=True, capture_output=True, text=True).stdout
-        for kind in ("lines", "history", "spectrum"):
+        for kind in ("lines", "history", "spectrum", "xt", "field"):
             self.assertRegex(text, rf"(?m)^  {kind} +\S")
             self.assertRegex(text, rf"gridcross plot FILE.study (?:{kind} |--x)")
 
