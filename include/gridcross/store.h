@@ -30,8 +30,9 @@ void gx_json_write_object(const struct gx_table *table, size_t row, FILE *out);
 
 /* /table of a study.h5, NULL after a message. */
 struct gx_table *gx_hdf5_read(const char *path, FILE *errors);
-/* The study's title, owned by the caller; NULL after a message. */
-char *gx_hdf5_read_title(const char *path, FILE *errors);
+/* What a study keeps of where it comes from: title, run_file, version, git_revision, compiler, flags, gsl, fftw, hdf5 or yaml, owned
+ * by the caller; NULL after a message. */
+char *gx_hdf5_read_provenance(const char *path, const char *name, FILE *errors);
 /* Columns time and `name` ("displacement.rms", "energy.kinetic", ...) of a case's history; NULL after a message. */
 struct gx_table *gx_hdf5_read_history(const char *path, const char *id, const char *name, FILE *errors);
 
@@ -95,8 +96,8 @@ void gx_store_rows_end(struct gx_store_rows *rows);
 struct gx_table *gx_store_read(const char *directory, FILE *errors);
 /* How many runs the times of a study's cases are medians of, at least; 0: the runs that gave the results were timed. */
 long gx_store_read_repeats(const char *directory);
-/* The same as gx_hdf5_read_title and gx_hdf5_read_history, of the study in a directory. */
-char *gx_store_read_title(const char *directory, FILE *errors);
+/* The same as gx_hdf5_read_provenance and gx_hdf5_read_history, of the study in a directory. */
+char *gx_store_read_provenance(const char *directory, const char *name, FILE *errors);
 struct gx_table *gx_store_read_history(const char *directory, const char *id, const char *name, FILE *errors);
 /* The spectra that a case of the table kept, NULL after a message; freed by gx_store_free_spectra. table: of gx_store_read. */
 struct gx_spectra *gx_store_read_spectra(const char *directory, const struct gx_table *table, size_t row, FILE *errors);

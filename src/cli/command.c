@@ -11,9 +11,19 @@
 #include "../view/sheet.h"
 #include "where.h"
 
-const struct gx_command *const gx_command_family[] = {
-    &gx_command_run,     &gx_command_check,  &gx_command_init,  &gx_command_compare, &gx_command_plot, &gx_command_spectrum,
-    &gx_command_balance, &gx_command_advise, &gx_command_paper, &gx_command_merge,   &gx_command_list, NULL};
+const struct gx_command *const gx_command_family[] = {&gx_command_run,
+                                                      &gx_command_check,
+                                                      &gx_command_init,
+                                                      &gx_command_compare,
+                                                      &gx_command_plot,
+                                                      &gx_command_report,
+                                                      &gx_command_spectrum,
+                                                      &gx_command_balance,
+                                                      &gx_command_advise,
+                                                      &gx_command_paper,
+                                                      &gx_command_merge,
+                                                      &gx_command_list,
+                                                      NULL};
 
 int gx_command_no_memory(void)
 {

@@ -12,7 +12,8 @@
 /* All of them, NULL-ended. */
 extern const struct gx_command *const gx_command_family[];
 extern const struct gx_command gx_command_run, gx_command_check, gx_command_init, gx_command_compare, gx_command_plot,
-    gx_command_advise, gx_command_list, gx_command_paper, gx_command_spectrum, gx_command_balance, gx_command_merge;
+    gx_command_advise, gx_command_list, gx_command_paper, gx_command_spectrum, gx_command_balance, gx_command_merge,
+    gx_command_report;
 
 #define GX_COMMAND_SET                                                                                                           \
   {                                                                                                                              \

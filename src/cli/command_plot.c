@@ -86,7 +86,7 @@ static int check_options(const struct gx_options *options, const struct gx_plot_
 static int plot(const struct gx_options *options, const struct gx_plot_kind *kind, const struct gx_command_studies *studies,
                 const char **by, size_t points, const struct gx_plot_point *point)
 {
-  char *title = studies->count == 1 ? gx_store_read_title(options->operand[0], stderr) : NULL;
+  char *title = studies->count == 1 ? gx_store_read_provenance(options->operand[0], "title", stderr) : NULL;
   if (studies->count == 1 && !title) return GX_EXIT_USAGE;
   double time = NAN;
   if (gx_options_value(options, "time")) gx_number_real(gx_options_value(options, "time"), &time);

@@ -6,17 +6,11 @@ import csv
 import pathlib
 import sys
 
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "core"))
+from c_text import array, literal
+
 COLUMNS = ["row", "quantity", "value", "printed", "corrected", "gate", "reason"]
-
-
-def literal(text):
-    return '"' + "".join(c if " " <= c <= "~" and c not in '"\\?' else "".join(f"\\{b:03o}" for b in c.encode()) for c in text) + '"'
-
-
-def array(text):
-    """A string of any length: compilers need not take literals beyond 4095 characters."""
-    numbers = ",".join(str(b if b < 128 else b - 256) for b in text.encode() + b"\0")
-    return "{" + numbers + "}"
 
 
 def expectations(path):

@@ -90,16 +90,16 @@ struct gx_table *gx_hdf5_read(const char *path, FILE *errors)
   return table;
 }
 
-char *gx_hdf5_read_title(const char *path, FILE *errors)
+char *gx_hdf5_read_provenance(const char *path, const char *name, FILE *errors)
 {
   struct gx_handle_silence old = gx_handle_silence();
-  char *title = NULL;
+  char *text = NULL;
   hid_t file = gx_hdf5_read_open(path, errors), provenance = file < 0 ? -1 : gx_handle_open_group(file, "provenance");
-  if (provenance >= 0 && !(title = gx_handle_get_text(provenance, "title"))) fprintf(errors, "%s: its title is damaged\n", path);
+  if (provenance >= 0 && !(text = gx_handle_get_text(provenance, name))) fprintf(errors, "%s: its %s is damaged\n", path, name);
   if (provenance >= 0) H5Gclose(provenance);
   if (file >= 0) H5Fclose(file);
   gx_handle_restore(old);
-  return title;
+  return text;
 }
 
 static void name_histories(hid_t group, const char *wanted, FILE *errors)

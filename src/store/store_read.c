@@ -31,13 +31,13 @@ long gx_store_read_repeats(const char *directory)
   return least > 0 ? least : 0;
 }
 
-char *gx_store_read_title(const char *directory, FILE *errors)
+char *gx_store_read_provenance(const char *directory, const char *name, FILE *errors)
 {
   char *study = gx_assembly_path(directory, "", gx_assembly_name[GX_ASSEMBLY_STUDY], ""),
-       *title = study ? gx_hdf5_read_title(study, errors) : NULL;
+       *text = study ? gx_hdf5_read_provenance(study, name, errors) : NULL;
   if (!study) gx_assembly_say(errors, NULL);
   free(study);
-  return title;
+  return text;
 }
 
 struct gx_table *gx_store_read_history(const char *directory, const char *id, const char *name, FILE *errors)

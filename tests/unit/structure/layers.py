@@ -12,7 +12,7 @@ RANK = {folder: rank for rank, folders in enumerate(LAYERS) for folder in folder
 HOME = {
     "status": "core", "particles": "core", "grid": "core", "value": "core", "table": "core", "page": "core", "build": "core",
     "basis": "bases", "material": "materials", "problem": "problems", "space": "spaces", "clock": "clocks",
-    "measure": "measures", "snapshot": "measures", "spectrum": "measures", "frequency": "measures", "budget": "measures", "paper": "papers", "parameter": "study", "simulation": "study", "study": "study", "store": "store", "recorder": "store", "series": "store", "advise": "view", "balance": "view", "compare": "view", "plot": "view", "starter": "view", "spectra": "view",
+    "measure": "measures", "snapshot": "measures", "spectrum": "measures", "frequency": "measures", "budget": "measures", "paper": "papers", "parameter": "study", "simulation": "study", "study": "study", "store": "store", "recorder": "store", "series": "store", "advise": "view", "balance": "view", "compare": "view", "plot": "view", "report": "view", "starter": "view", "spectra": "view",
 }
 # Libraries that one file each may see.
 ONCE = {"yaml.h": [], "hdf5.h": [], "fftw3.h": []}
