@@ -60,7 +60,9 @@ hid_t gx_hdf5_read_open(const char *path, FILE *errors)
   int64_t format = 0;
   FILE *probe = fopen(path, "rb");
   if (!probe) {
-    fprintf(errors, "%s: %s\n", path, strerror(errno));
+    const bool none = errno == ENOENT || errno == ENOTDIR;
+    fprintf(errors, "%s: %s%s\n", path, strerror(errno),
+            none ? ": give the directory of a finished study, which gridcross run writes" : "");
     return -1;
   }
   fclose(probe);

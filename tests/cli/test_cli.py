@@ -90,7 +90,7 @@ class Usage(Case):
             (["run", "-"], "-o"), (["run", "small.yaml", "-o", ""], "-o"), (["run", "none.yaml"], "none.yaml"),
             (["run", "small.yaml", "--set", "mesh.cell=3"], "mesh.cells"), (["check", "none.yaml"], "none.yaml"),
             (["init", "bar-liner"], "did you mean bar-linear?"), (["list", "clock"], "did you mean clocks?"),
-            (["compare"], "missing"), (["compare", "none"], "none"), (["compare", "."], "study.h5"),
+            (["compare"], "missing"), (["compare", "none"], "none"), (["compare", "."], "gridcross run writes"), (["compare", "small.yaml"], "gridcross run writes"),
         ]:
             with self.subTest(args=args):
                 done = self.call(*args, code=2, stdin=subprocess.DEVNULL)
