@@ -10,7 +10,7 @@ files = sorted(pathlib.Path(f) for f in sys.argv[2:]) or sorted(folder.glob("*.y
 failed = 0
 for file in files:
     expected = file.with_suffix(".expected").read_text()
-    done = subprocess.run([program, "check", file.name], cwd=folder, capture_output=True, timeout=20)
+    done = subprocess.run([program, "check", file.name], cwd=folder, capture_output=True, timeout=600)
     found = done.stderr.decode(errors="replace")
     complaints = []
     if done.returncode != 2:

@@ -32,7 +32,7 @@ class Studied(unittest.TestCase):
         shutil.copytree(self.base, self.dir)
 
     def call(self, *args, code=0, **more):
-        done = subprocess.run([PROGRAM, *map(str, args)], cwd=self.dir, capture_output=True, timeout=60, **more)
+        done = subprocess.run([PROGRAM, *map(str, args)], cwd=self.dir, capture_output=True, timeout=600, **more)
         done.stdout, done.stderr = done.stdout.decode(), done.stderr.decode()
         self.assertEqual(done.returncode, code, f"{args}: {done.stdout[-500:]}\n{done.stderr[-500:]}")
         return done

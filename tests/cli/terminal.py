@@ -8,7 +8,7 @@ import subprocess
 import termios
 
 
-def on_terminal(command, columns, timeout=60, **more):
+def on_terminal(command, columns, timeout=600, **more):
     """Exit code and text. Standard output and standard error are the terminal."""
     control, terminal = pty.openpty()
     fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))

@@ -121,8 +121,8 @@ class Again(Case):
         self.call("run", ROOT / "runs" / "choice.yaml", "-q", "--set", "mesh.cells=[8, 16]", "--set", "mesh.particles_per_cell=2")
         self.assertGreater(len(self.cases("choice.study")[0]), 200)
         picks = self.again("choice.study", "1e-3", "1e-6", "1e-9")
-        spaces = {one["method.space"] for one in picks}
-        self.assertFalse("standard" in spaces, spaces)
+        spaces = {one["method.space"] for one in picks if {"1e-6", "1e-9"} & set(one["pick"].split())}
+        self.assertFalse("standard" in spaces, spaces)  # at 1e-3 the machine's times decide
         why = next(one["why"] for one in picks if "1e-6" in one["pick"].split())
         self.assertRegex(why, r"cheapest with another method.space: standard \(\d\.\d\de-[2-5] at best\)")
 

@@ -32,7 +32,7 @@ class Case(unittest.TestCase):
         (self.dir / "small.yaml").write_text(STUDY)
 
     def call(self, *args, code=0, **more):
-        done = subprocess.run([PROGRAM, *map(str, args)], cwd=self.dir, capture_output=True, timeout=60, **more)
+        done = subprocess.run([PROGRAM, *map(str, args)], cwd=self.dir, capture_output=True, timeout=600, **more)
         done.stdout, done.stderr = done.stdout.decode(), done.stderr.decode()
         self.assertEqual(done.returncode, code, f"{args}: {done.stdout[-500:]}\n{done.stderr[-500:]}")
         return done
@@ -192,7 +192,7 @@ class Run(Case):
             self.skipTest("no /dev/full")
         with open("/dev/full", "wb") as full:
             for args in (["run", "small.yaml"], ["run", "small.yaml", "--csv"], ["list"], ["--help"], ["check", "small.yaml"]):
-                done = subprocess.run([PROGRAM, *args], cwd=self.dir, stdout=full, stderr=subprocess.PIPE, timeout=60)
+                done = subprocess.run([PROGRAM, *args], cwd=self.dir, stdout=full, stderr=subprocess.PIPE, timeout=600)
                 self.assertEqual(done.returncode, 1, args)
                 self.assertIn(b"standard output", done.stderr)
 
@@ -218,7 +218,7 @@ class Run(Case):
     def test_a_closed_pipe_ends_quietly(self):
         read, write = os.pipe()
         os.close(read)
-        done = subprocess.run([PROGRAM, "list"], stdout=write, stderr=subprocess.PIPE, timeout=60)
+        done = subprocess.run([PROGRAM, "list"], stdout=write, stderr=subprocess.PIPE, timeout=600)
         os.close(write)
         self.assertIn(done.returncode, (-signal.SIGPIPE, 1))
 

@@ -16,7 +16,7 @@ PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 
 
 def say(*args):
-    return subprocess.run([PROGRAM, *args], check=True, capture_output=True, text=True, timeout=60).stdout
+    return subprocess.run([PROGRAM, *args], check=True, capture_output=True, text=True, timeout=600).stdout
 
 
 COMMANDS = re.findall(r"^  (?!gridcross)([a-z]+) +[A-Z]", say("--help"), re.M)
@@ -88,7 +88,7 @@ class Completion(unittest.TestCase):
         script = (f". {self.dir}/completion; COMP_WORDBREAKS=$'{breaks.encode('unicode_escape').decode()}'; COMP_WORDS=(\"$@\"); "
                   "COMP_CWORD=$(($# - 1)); _gridcross; printf '%s\\n' \"${COMPREPLY[@]}\"")
         done = subprocess.run(["bash", "--norc", "-c", script, "bash", *split], cwd=self.dir / "work", capture_output=True, text=True,
-                              timeout=60)
+                              timeout=600)
         self.assertEqual((done.returncode, done.stderr), (0, ""), words)
         return done.stdout.split("\n")[:-1] if done.stdout != "\n" else []
 

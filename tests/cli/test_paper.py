@@ -21,7 +21,7 @@ class Paper(unittest.TestCase):
         self.dir = pathlib.Path(place.name)
 
     def call(self, *args, code=0):
-        done = subprocess.run([PROGRAM, "paper", *args], cwd=self.dir, capture_output=True, text=True, timeout=100)
+        done = subprocess.run([PROGRAM, "paper", *args], cwd=self.dir, capture_output=True, text=True, timeout=600)
         self.assertEqual(done.returncode, code, f"{args}: {done.stdout[-500:]}\n{done.stderr[-500:]}")
         return done
 

@@ -27,7 +27,7 @@ class Threads(unittest.TestCase):
     def table(self, text, jobs, *options):
         (self.dir / "case.yaml").write_text(text)
         done = subprocess.run([PROGRAM, "run", "case.yaml", "-q", "-j", str(jobs), "-o", f"j{jobs}", *options], cwd=self.dir,
-                              capture_output=True, text=True, timeout=100)
+                              capture_output=True, text=True, timeout=600)
         self.assertEqual(done.returncode, 0, done.stderr)
         return (self.dir / f"j{jobs}" / "table.csv").read_bytes()
 

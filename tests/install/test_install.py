@@ -15,7 +15,7 @@ PREFIX, LIBDIR, COMPILER = sys.argv[3], sys.argv[4], sys.argv[5:]
 
 
 def output(*command, **more):
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True, timeout=200, **more)
+    done = subprocess.run([str(c) for c in command], capture_output=True, text=True, timeout=600, **more)
     if done.returncode:
         raise AssertionError(f"{command}: {done.returncode}\n{done.stdout}\n{done.stderr}")
     return done.stdout

@@ -11,10 +11,9 @@ import tempfile
 # name: file, text, its replacement, items that must notice. The text must stand exactly once in the file.
 MUTATIONS = {
     "an RKN weight by 0.1 %": ("src/clocks/rkn4.c", "0.338978026553643355", "0.339317004580197", ["berzins2021/table3"]),
-    "the B-spline centre by h/2": ("src/bases/bspline.c", "double s = gx_locate(true, cells, x[p]);",
-                                   "double s = gx_locate(true, cells, x[p] + 0.5 / cells);", ["steffen2010/table2", "steffen2010/fig12"]),
-    "no F in V = F V0": ("src/spaces/standard.c", "sum += P[i * dim + k][p] * F[j * dim + k][p];",
-                         "sum += P[i * dim + k][p] * (j == k);", ["steffen2010/fig13b", "steffen2010/table2"]),
+    "the B-spline centre by h/2": ("src/spaces/line_core.h", "*s = inside * *cells;", "*s = inside * *cells + 0.5;",
+                                   ["steffen2010/table2", "steffen2010/fig12"]),
+    "no F in V = F V0": ("src/spaces/line_core.h", "T = -V0 * (P * F);", "T = -V0 * P;", ["steffen2010/fig13b", "steffen2010/table2"]),
 }
 
 

@@ -132,7 +132,7 @@ class Interrupt(Case):
     def interrupt(self, number, directory, *more):
         """Once two cases are done, as an ear on the journals tells."""
         (self.dir / "long.yaml").write_text(TWO_SHORT)
-        process = self.start("run", "long.yaml", "-o", directory, "-j", "2", *more)
+        process = self.start("run", "long.yaml", "-o", directory, "-j", "4", *more)  # one for each case, as the longest begin first
         deadline = time.monotonic() + 60
         while not (self.dir / directory).exists() or self.records(directory) < 2:
             self.assertLess(time.monotonic(), deadline)
@@ -140,7 +140,7 @@ class Interrupt(Case):
         time.sleep(0.1)
         start = time.monotonic()
         process.send_signal(number)
-        err = process.communicate(timeout=60)[1].decode()
+        err = process.communicate(timeout=600)[1].decode()
         return process.returncode, err, time.monotonic() - start
 
     def test_signals_end_a_run_soon_and_say_how_to_go_on(self):
@@ -268,7 +268,7 @@ class Places(Case):
             self.assertIsNone(process.poll())
             time.sleep(0.002)
         shutil.rmtree(self.dir / "gone")
-        err = process.communicate(timeout=100)[1].decode()
+        err = process.communicate(timeout=600)[1].decode()
         self.assertEqual(process.returncode, 1)
         self.assertIn("gone", err)
         self.assertIn("No such file or directory", err)
