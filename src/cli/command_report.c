@@ -114,7 +114,10 @@ const struct gx_command gx_command_report = {
     .operands = "DIR...",
     .least = 1,
     .most = -1,
-    .help = "Write studies, or those within directories, as one page of HTML that needs nothing else.",
+    .help = "Write studies, or those within directories, as one page of HTML that loads nothing: tables that sort, figures that "
+            "zoom, "
+            "particles crossing cells (of output.snapshots), energies (output.histories), spectra, error budget, run files, "
+            "provenance; papers beside the print.",
     .option = option,
     .example = example,
     .run = run,

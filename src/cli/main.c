@@ -78,8 +78,13 @@ static int run_command(int argc, char **argv)
     bool reference = argc > 2 && !strcmp(argv[2], "5");
     return (reference ? gx_manual_reference : gx_manual_program)(stdout) ? gx_command_no_memory() : GX_EXIT_DONE;
   }
-  const struct gx_command *command = find_command(argv[1]);
+  bool help = !strcmp(argv[1], "help") && argc == 3;
+  const struct gx_command *command = find_command(argv[help ? 2 : 1]);
   if (!command) return GX_EXIT_USAGE;
+  if (help) {
+    gx_options_help(command, gx_text_width(), stdout);
+    return GX_EXIT_DONE;
+  }
   struct gx_options options;
   int code = gx_options_parse(&options, command, argc, argv, stderr);
   if (options.help)

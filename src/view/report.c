@@ -29,7 +29,7 @@ static int write_data(const struct gx_report_page *page, FILE *out, FILE *errors
   int failed = gx_report_study_write(page, &json, errors) || gx_report_paper_write(page, &json, errors);
   if (!failed && !page->papers)
     failed = gx_report_cases_write(page, &json) || gx_report_compare_write(page, &json, errors) ||
-             gx_report_front_write(page, &json) || gx_report_curves_write(page, &json);
+             gx_report_front_write(page, &json) || gx_report_tracks_write(page, &json) || gx_report_curves_write(page, &json);
   gx_report_json_close(&json, '}');
   return failed;
 }

@@ -43,6 +43,8 @@ int gx_report_compare_write(const struct gx_report_page *page, struct gx_report_
 int gx_report_front_write(const struct gx_report_page *page, struct gx_report_json *json);
 /* histories, spectra: of some cases. */
 int gx_report_curves_write(const struct gx_report_page *page, struct gx_report_json *json);
+/* tracks: paths of particles over the cells of some cases that kept snapshots. */
+int gx_report_tracks_write(const struct gx_report_page *page, struct gx_report_json *json);
 /* paper: items beside the print. */
 int gx_report_paper_write(const struct gx_report_page *page, struct gx_report_json *json, FILE *errors);
 

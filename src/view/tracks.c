@@ -124,12 +124,11 @@ static int take(struct gx_tracks *tracks, const struct gx_series *series, size_t
 {
   double *x = gx_series_read(series, i, GX_SERIES_PARTICLES, "position", 0, errors), *u = NULL;
   if (!x) return -1;
-  bool fixed = series->vertices[0] > 1 && !series->moving;
   int failed = 0;
   for (size_t k = 0; k < tracks->paths && !failed; k++) {
     double at[2] = {before[k], x[tracks->index[k]]};
-    if (fixed && i > 0 && isfinite(at[1] - at[0]))
-      failed = cross(tracks, k, (double)(series->vertices[0] - 1), at, &series->time[i - 1]);
+    if (tracks->cells && i > 0 && isfinite(at[1] - at[0]))
+      failed = cross(tracks, k, (double)tracks->cells, at, &series->time[i - 1]);
     before[k] = at[1];
     if (kept < tracks->times) tracks->path[k * tracks->times + kept] = at[1];
   }
@@ -169,6 +168,8 @@ int gx_tracks_read(struct gx_tracks *tracks, const char *directory, const char *
   *tracks = (struct gx_tracks){0};
   struct gx_series *series = gx_series_open(directory, id, errors);
   if (!series) return -1;
+  tracks->cells = series->vertices[0] > 1 && !series->moving ? series->vertices[0] - 1 : 0;
+  tracks->row = series->dim > 1;
   int failed = choose_paths(tracks, series, errors);
   if (!failed) failed = choose_edges(tracks, series, errors);
   if (!failed) failed = take_all(tracks, series, errors);

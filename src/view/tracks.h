@@ -3,6 +3,7 @@
 #ifndef GRIDCROSS_VIEW_TRACKS_H
 #define GRIDCROSS_VIEW_TRACKS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
 
@@ -22,6 +23,8 @@ struct gx_tracks {
     double x, time;
   } * crossing;        /* [crossings] of these paths and a fixed grid's edges, between snapshots on straight lines */
   size_t of, edges_of; /* how many there are to take from */
+  size_t cells;        /* along x, of a fixed grid; 0: it moves, or there is none */
+  bool row;            /* paths are of one row of the body's particles */
 };
 
 /* Returns 0, or -1 after a message; to be freed in either case. */

@@ -79,6 +79,11 @@ class Help(Case):
 
 
 class Usage(Case):
+    def test_help_of_a_command(self):
+        for command in ("report", "run"):
+            self.assertEqual(self.call("help", command).stdout, self.call(command, "--help").stdout)
+        self.assertIn("did you mean report?", self.call("help", "reprot", code=2).stderr)
+
     def test_errors_exit_2_with_a_hint_and_no_output(self):
         for args, hint in [
             ([], "usage"), (["rum"], "did you mean run?"), (["--hlep"], "did you mean --help?"), (["xyzzy"], "--help"),

@@ -9,6 +9,8 @@ import sys
 import unittest
 from html.parser import HTMLParser
 
+import h5py
+
 from studied import PROGRAM, Studied
 
 MEGABYTE = 1000000
@@ -19,7 +21,7 @@ problem: {name: bar-neo-hookean}
 mesh: {cells: [8, 16], particles_per_cell: 2}
 method: {space: [standard, moving-mesh], degree: 1}
 time: {cfl: 0.4, periods: 0.25}
-output: {histories: 2, spectra: 4}
+output: {histories: 2, spectra: 4, snapshots: 3}
 """
 
 
@@ -121,6 +123,23 @@ class Report(Studied):
             self.assertEqual(curve["displacement.rms"][-1], last["result.displacement.final.rms"])
             self.assertEqual(curve["time"][-1], last["result.time"])
         self.assertEqual({len(c["wavenumber"]) for c in data["spectra"]["curves"]}, {8, 16})
+
+    def test_paths_are_those_of_snapshots(self):
+        _, _, data = self.report()
+        self.assertEqual([data["cases"]["rows"][t["case"]][3][1] for t in data["tracks"]["cases"]], [0, 1, 0, 1])  # pairs of spaces
+        for track in data["tracks"]["cases"]:
+            row = data["cases"]["rows"][track["case"]]
+            with h5py.File(self.dir / "small.study" / f"case-{row[0]}.h5") as file:
+                steps = sorted(file["data"], key=int)
+                place = [file[f"data/{step}/particles/material_points/position/x"][:] for step in steps]
+                time = [file[f"data/{step}"].attrs["time"] for step in steps]
+            self.assertEqual(track["time"], [float(f"{t:.6g}") for t in time])
+            self.assertEqual(len(track["path"]), len(place[0]))
+            for p, path in enumerate(track["path"]):
+                for i in range(len(steps)):
+                    self.assertAlmostEqual(sum(path[:i + 1]) / data["tracks"]["per_metre"], place[i][p], delta=5.1e-6)
+            cells = [8, 16][row[3][0]]
+            self.assertEqual((track["cells"], len(track["edge"])), (0 if row[3][1] else cells, cells + 1))
 
     def test_equal_studies_give_equal_bytes(self):
         pages = []

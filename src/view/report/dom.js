@@ -22,7 +22,7 @@ const plural = (count, word) => `${count.toLocaleString("en")} ${word}${count ==
 const isNumber = value => typeof value === "number" && isFinite(value);
 
 function exponent(value, digits) {
-  return value.toExponential(digits).replace("e+", "e").replace("-", "\u2212").replace("e-", "e\u2212");
+  return value.toExponential(digits).replace("e+0", "").replace("e+", "e").replace("-", "\u2212").replace("e-", "e\u2212");
 }
 
 /* Errors by three digits in powers of ten, counts in full, the rest by four digits. */

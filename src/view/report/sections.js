@@ -133,7 +133,7 @@ function costSection() {
 function historySection() {
   const {histories} = data;
   const names = ["displacement.rms", "velocity.rms", "stress.rms", "crossings"].filter(name => histories.curves.some(curve => (curve[name] || []).some(isNumber)));
-  if (!histories.curves.length) return section("energy", "In time", el("p", {class: "note"}, "No case kept its history: set ", el("code", {}, "output: {histories: 10}"), " in the run file for errors and energies each ten steps."));
+  if (!histories.curves.length) return section("energy", "Histories and energy ledger", el("p", {class: "note"}, "No case kept its history: set ", el("code", {}, "output: {histories: 10}"), " in the run file for errors and energies each ten steps."));
   const parts = [];
   if (names.length) {
     const choice = {name: names[0], log: true};
@@ -145,7 +145,7 @@ function historySection() {
   const curves = histories.curves.filter(curve => (curve["energy.kinetic"] || []).some(isNumber));
   if (curves.length) parts.push(el("h3", {}, "Energy ledger"), pairOf(curves, curve => ledgerFigure(curve)));
   if (histories.total > histories.curves.length) parts.push(el("p", {class: "note"}, `${histories.curves.length} of ${histories.total} histories; study.h5 holds all.`));
-  return section("energy", "In time", parts);
+  return section("energy", "Histories and energy ledger", parts);
 }
 
 /* Two cases beside each other, each chosen from a list. */
@@ -273,7 +273,7 @@ function writePage() {
   const parts = [leadSection()];
   if (data.cases) parts.push(comparedSection());
   if (data.paper.length) parts.push(...paperSections());
-  if (data.cases) parts.push(failedTable(), compareSection(), refinementSection(), costSection(), historySection(), spectrumSection(), budgetSection(), everyCase());
+  if (data.cases) parts.push(failedTable(), compareSection(), refinementSection(), costSection(), tracksSection(), historySection(), spectrumSection(), budgetSection(), everyCase());
   parts.push(sourceSection(), provenanceSection());
   parts[0].append(el("nav", {"aria-label": "Sections"}, contents));
   main.append(...parts.filter(part => part));

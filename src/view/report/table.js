@@ -35,6 +35,8 @@ function heading(table, column, i) {
   return cell;
 }
 
+const ON_PAPER = 10; /* columns; report.css leaves out the others */
+
 /* spec: {label, columns, rows, first: rows shown before "show all"} */
 function sortable(spec) {
   const table = {units: spec.columns.some(column => column.unit), by: -1, falling: false, all: false};
@@ -56,7 +58,8 @@ function sortable(spec) {
   fill();
   const box = el("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": spec.label},
     el("table", {}, el("thead", {}, el("tr", {}, heads)), body));
-  return el("div", {}, spec.caption ? el("p", {class: "note"}, spec.caption) : null, box, more);
+  const cut = spec.columns.length > ON_PAPER ? el("p", {class: "note paper"}, `The first ${ON_PAPER} of ${spec.columns.length} columns; a screen shows all.`) : null;
+  return el("div", {}, spec.caption ? el("p", {class: "note"}, spec.caption) : null, box, cut, more);
 }
 
 /* The status where a case did not end well, its time and cause on hover. */
