@@ -204,7 +204,11 @@ static void write_row(const struct view *view, const struct gx_table *table, siz
   }
   gx_report_json_text(json, "printed", view->item->row[row].printed);
   gx_report_json_text(json, "corrected", view->item->row[row].corrected);
-  gx_report_json_number(json, "ours", gx_value_number(gx_table_get(table, row, (size_t)gx_table_find(table, "ours"))));
+  struct gx_value ours = gx_table_get(table, row, (size_t)gx_table_find(table, "ours")); /* a status is a text */
+  if (ours.type == GX_TEXT)
+    gx_report_json_text(json, "ours", ours.text);
+  else
+    gx_report_json_number(json, "ours", gx_value_number(ours));
   gx_report_json_number(json, "ratio", gx_value_number(gx_table_get(table, row, (size_t)gx_table_find(table, "ratio"))));
   gx_report_json_close(json, '}');
 }

@@ -136,8 +136,9 @@ function axisOptions(chart, which) {
     grid: {stroke: colour("grid"), width: 1}, ticks: {stroke: colour("rule"), width: 1, size: 5},
     splits: (u, i, least, most) => {
       const room = across ? u.bbox.width / devicePixelRatio : 1.4 * u.bbox.height / devicePixelRatio;
-      const places = (axis.places || []).filter(place => place >= least && place <= most);
-      return places.length > 1 && places.length < room / 45 ? places : ticks(least, most, axis.log, room);
+      const places = (axis.places || []).filter(place => place >= least && place <= most), f = axis.log ? Math.log : v => v;
+      const crowded = places.some((place, k) => k && (f(place) - f(places[k - 1])) / (f(most) - f(least)) * room < 45);
+      return places.length > 1 && !crowded ? places : ticks(least, most, axis.log, room);
     },
     filter: (u, splits) => splits,
     values: (u, splits) => tickLabels(splits),

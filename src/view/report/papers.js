@@ -13,6 +13,7 @@ const digitsOf = text => (text || "").replace(/[eE].*/, "").replace(/^[^0-9]*0*\
 
 /* Ours by as many digits as the print or the gate's value has, and one more. */
 function ours(row) {
+  if (typeof row.ours === "string") return row.ours;
   if (!isNumber(row.ours)) return "–";
   const digits = Math.max(digitsOf(row.printed), digitsOf((/ of (.*)/.exec(row.gate) || [])[1]));
   const size = Math.abs(row.ours), places = Math.min(8, Math.max(3, digits + 1));
@@ -23,7 +24,7 @@ function ours(row) {
 function paperTable(item) {
   const text = (name, field) => ({name, key: row => row[field], cell: row => row[field] || ""});
   const columns = [
-    {...text("row", "row"), head: true}, text("quantity", "quantity"),
+    {...text("row", "row"), head: true, kind: "soft"}, {...text("quantity", "quantity"), kind: "soft"},
     {name: "ours", numeric: true, key: row => row.ours, cell: ours},
   ];
   const prints = item.rows.some(row => row.printed), reasons = [...new Set(item.rows.map(row => row.reason).filter(reason => reason))];
@@ -31,9 +32,8 @@ function paperTable(item) {
   if (item.rows.some(row => row.corrected)) columns.push({...text("corrected", "corrected"), numeric: true, key: row => parseFloat(row.corrected)});
   if (prints) columns.push({name: "ours / printed", numeric: true, key: row => row.ratio, cell: row => isNumber(row.ratio) ? row.ratio.toPrecision(4) : ""});
   if (item.rows.some(row => row.gate)) columns.push(text("gate", "gate"));
-  columns.push({name: "verdict", key: row => row.verdict, cell: row => verdict(row.verdict)});
-  const note = row => row.reason ? reasons.indexOf(row.reason) + 1 : null;
-  if (reasons.length) columns.push({name: "note", numeric: true, key: note, cell: row => note(row) ? String(note(row)) : ""});
+  const note = row => row.reason ? el("sup", {}, el("span", {class: "hidden"}, " note "), String(reasons.indexOf(row.reason) + 1)) : null;
+  columns.push({name: "verdict", key: row => row.verdict, cell: row => [verdict(row.verdict), note(row)]});
   const label = `${paperName(item.paper)}, ${itemName(item.item)}`;
   return [sortable({label, columns, rows: item.rows, first: 60}),
     reasons.length ? el("ol", {class: "reasons", "aria-label": "Notes"}, reasons.map(reason => el("li", {}, reason))) : null];
