@@ -9,6 +9,7 @@
 #ifndef GRIDCROSS_STORE_H
 #define GRIDCROSS_STORE_H
 
+#include <stdint.h>
 #include <stdio.h>
 
 #include <gridcross/study.h>
@@ -68,6 +69,8 @@ struct gx_store;
 /* Prepares the directory, and keeps others from it. directory is copied, the rest borrowed until it is closed. NULL after a
  * message. */
 struct gx_store *gx_store_open(const char *directory, const struct gx_study *study, const struct gx_store_how *how, FILE *errors);
+/* Equal for writers of one study by one build. */
+uint64_t gx_store_number(const struct gx_store *store);
 /* [study->count] cases that are not to be run: they have a result, or belong to another shard. */
 const bool *gx_store_skip(const struct gx_store *store);
 struct gx_sink gx_store_sink(struct gx_store *store);

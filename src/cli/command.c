@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What commands share. */
+#define _GNU_SOURCE /* sched_getaffinity */
 #include "command.h"
 
+#include <sched.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -96,5 +98,9 @@ size_t gx_command_jobs(const struct gx_options *options)
 {
   if (gx_options_value(options, "jobs")) return gx_command_count(options, "jobs");
   long processors = sysconf(_SC_NPROCESSORS_ONLN);
+#ifdef CPU_COUNT
+  cpu_set_t ours; /* what taskset, a batch system or mpirun leaves us */
+  if (!sched_getaffinity(0, sizeof ours, &ours)) processors = CPU_COUNT(&ours);
+#endif
   return processors > 0 ? (size_t)processors : 1;
 }

@@ -11,6 +11,7 @@
 
 #include "interrupt.h"
 #include "progress.h"
+#include "ranks.h"
 #include "summary.h"
 
 static const struct gx_option option[] = {
@@ -62,72 +63,150 @@ static double now(void)
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static int end_interrupted(struct gx_store *store, const char *directory, int signal)
+/* A run, from its options to its study. */
+struct running {
+  const struct gx_options *options;
+  struct gx_ranks *ranks; /* NULL: this process is alone */
+  struct gx_store_how how;
+  const char *directory;
+  const struct gx_study *study;
+  size_t jobs;
+  bool quiet;
+  struct gx_store *store;
+  struct gx_queue *queue; /* of the first of ranks */
+  struct gx_interrupt interrupt;
+  bool broken; /* ended while other ranks go on */
+};
+
+/* What is kept, for another run to go on with. */
+static void tell_kept(const struct running *run)
 {
   size_t done, total;
-  gx_store_count(store, &done, &total);
-  int failed = gx_store_close(store);
-  fprintf(stderr,
-          "gridcross run: interrupted; %zu of %zu cases are done and kept in %s; the same command with --resume goes on\n", done,
-          total, directory);
-  return failed ? GX_EXIT_FAILED : 128 + signal;
+  gx_store_count(run->store, &done, &total);
+  fputs("gridcross run: ", stderr);
+  if (atomic_load(&run->interrupt.signal)) fputs("interrupted; ", stderr);
+  if (run->ranks)
+    fputs("what is", stderr);
+  else
+    fprintf(stderr, "%zu of %zu cases are", done, total);
+  fprintf(stderr, " done%s kept in %s; the same command with --resume goes on\n", run->ranks ? " is" : " and", run->directory);
 }
 
-static int end_failed(struct gx_store *store, const char *directory)
+/* The cases are not done, by an error that was told or by a signal that all ranks get, of whom one tells. */
+static int end_early(struct running *run)
 {
-  size_t done, total;
-  gx_store_count(store, &done, &total);
-  gx_store_close(store);
-  fprintf(stderr, "gridcross run: %zu of %zu cases are done and kept in %s; the same command with --resume goes on\n", done,
-          total, directory);
-  return GX_EXIT_FAILED;
+  const int signal = atomic_load(&run->interrupt.signal);
+  const int failed = gx_store_close(run->store);
+  if (!signal || gx_ranks_first(run->ranks)) tell_kept(run);
+  run->store = NULL;
+  run->broken = true;
+  return failed || !signal ? GX_EXIT_FAILED : 128 + signal;
 }
 
-static int finish(const struct gx_options *options, const struct gx_study *study, struct gx_store *store, const char *directory,
-                  double seconds)
+static int finish(struct running *run, double seconds)
 {
-  char *command = gx_options_line(options);
+  char *command = gx_options_line(run->options);
   if (!command) return gx_command_no_memory();
   const struct gx_store_run about = {.command = command, .seconds = seconds};
-  int code = gx_store_finish(store, &about) ? end_failed(store, directory) : GX_EXIT_DONE;
+  int failed = gx_store_finish(run->store, &about);
   free(command);
-  if (code) return code;
-  gx_store_close(store);
-  code = gx_summary_print(options, study, directory);
-  if (!gx_options_value(options, "quiet")) fprintf(stderr, "study: %s\n", directory);
+  if (failed) tell_kept(run);
+  gx_store_close(run->store);
+  run->store = NULL;
+  if (failed) return GX_EXIT_FAILED;
+  int code = gx_summary_print(run->options, run->study, run->directory);
+  if (!run->quiet) fprintf(stderr, "study: %s\n", run->directory);
   return code;
 }
 
-static int run_study(const struct gx_options *options, const struct gx_study *study, const char *directory, size_t jobs,
-                     const struct gx_store_how *how)
+/* The first of ranks makes the directory, then the others join it. */
+static int open_store(struct running *run)
 {
-  bool quiet = gx_options_value(options, "quiet");
-  struct gx_interrupt interrupt;
-  gx_interrupt_begin(&interrupt, "\ngridcross run: interrupted; what is done is kept: the same command with --resume goes on\n");
-  struct gx_store *store = gx_store_open(directory, study, how, stderr);
-  if (!store) {
-    gx_interrupt_end(&interrupt);
-    return GX_EXIT_USAGE;
+  const bool first = gx_ranks_first(run->ranks);
+  run->how.joins = !first;
+  if (first) run->store = gx_store_open(run->directory, run->study, &run->how, stderr);
+  int code = gx_ranks_agree(run->ranks, !first || run->store ? 0 : GX_EXIT_USAGE);
+  if (code) return code;
+  if (!first) run->store = gx_store_open(run->directory, run->study, &run->how, stderr);
+  code = gx_ranks_agree(run->ranks, run->store ? 0 : GX_EXIT_USAGE);
+  if (!code) code = gx_ranks_alike(run->ranks, gx_store_number(run->store));
+  gx_ranks_speak(run->ranks);
+  return code;
+}
+
+/* Where this rank's cases come from. */
+static int serve(struct running *run, struct gx_source *source)
+{
+  const bool first = gx_ranks_first(run->ranks);
+  if (first) run->queue = gx_queue_create(run->study, gx_store_skip(run->store), true);
+  const int code =
+      first && !run->queue ? gx_command_no_memory() : gx_ranks_serve(run->ranks, run->queue, &run->interrupt.cancel, source);
+  run->broken = code;
+  return code;
+}
+
+/* Of all ranks the first shows what it has given out. */
+struct progress_of_ranks {
+  struct gx_progress_line *line;
+  const struct gx_ranks *ranks;
+  size_t total;
+};
+
+static void tell_given(void *context, size_t done, size_t total)
+{
+  const struct progress_of_ranks *progress = context;
+  (void)done, (void)total;
+  gx_progress_done(progress->line, gx_ranks_given(progress->ranks), progress->total);
+}
+
+static int run_cases(struct running *run)
+{
+  const bool first = gx_ranks_first(run->ranks);
+  struct gx_source source;
+  if (run->ranks) {
+    const int code = serve(run, &source);
+    if (code) return code;
   }
-  size_t done, total;
-  gx_store_count(store, &done, &total);
-  if (done && !quiet) fprintf(stderr, "note: %zu of %zu cases are done already\n", done, total);
-  double start = now();
+  const double start = now();
   struct gx_progress_line line;
-  gx_progress_begin(&line, quiet, "");
-  const struct gx_progress progress = {.context = &line, .done = gx_progress_done};
-  const struct gx_study_means means = {.threads = jobs,
-                                       .sink = gx_store_sink(store),
-                                       .progress = &progress,
-                                       .skip = gx_store_skip(store),
-                                       .cancel = &interrupt.cancel,
-                                       .observer = gx_store_observer(store)};
-  int failed = gx_study_run(study, &means);
+  gx_progress_begin(&line, run->quiet || !first, "");
+  struct progress_of_ranks shown = {&line, run->ranks, run->queue ? gx_queue_count(run->queue) : 0};
+  const struct gx_progress progress = {.context = run->ranks ? (void *)&shown : (void *)&line,
+                                       .done = run->ranks ? tell_given : gx_progress_done};
+  const struct gx_study_means means = {.threads = run->jobs,
+                                       .sink = gx_store_sink(run->store),
+                                       .progress = first ? &progress : NULL,
+                                       .skip = gx_store_skip(run->store),
+                                       .source = run->ranks ? &source : NULL,
+                                       .cancel = &run->interrupt.cancel,
+                                       .observer = gx_store_observer(run->store)};
+  int failed = gx_study_run(run->study, &means);
   gx_progress_end(&line);
-  int code = !failed                          ? finish(options, study, store, directory, now() - start)
-             : atomic_load(&interrupt.signal) ? end_interrupted(store, directory, atomic_load(&interrupt.signal))
-                                              : end_failed(store, directory);
-  gx_interrupt_end(&interrupt);
+  if (!failed && !first) { /* its journal is whole before the first looks for it */
+    failed = gx_store_close(run->store);
+    run->store = NULL;
+    run->broken = failed;
+    if (failed) return GX_EXIT_FAILED;
+  }
+  if (failed || gx_ranks_meet(run->ranks)) return end_early(run);
+  return first ? finish(run, now() - start) : GX_EXIT_DONE;
+}
+
+static int run_study(struct running *run)
+{
+  static const char farewell[] = "\ngridcross run: interrupted; what is done is kept: the same command with --resume goes on\n";
+  gx_interrupt_begin(&run->interrupt, gx_ranks_first(run->ranks) ? farewell : "");
+  int code = open_store(run);
+  if (!code) {
+    size_t done, total;
+    gx_store_count(run->store, &done, &total);
+    if (done && !run->quiet && gx_ranks_first(run->ranks))
+      fprintf(stderr, "note: %zu of %zu cases are done already\n", done, total);
+    code = run_cases(run);
+  }
+  gx_interrupt_end(&run->interrupt);
+  gx_store_close(run->store);
+  gx_queue_free(run->queue);
   return code;
 }
 
@@ -148,30 +227,50 @@ static int read_shard(const struct gx_options *options, struct gx_store_how *how
   return GX_EXIT_USAGE;
 }
 
-static int run(const struct gx_options *options)
+/* Reads what the options and the run file say. Returns 0, or an exit code after messages. */
+static int prepare(struct running *run, char **directory, struct gx_study **study)
 {
+  const struct gx_options *options = run->options;
   if (gx_options_value(options, "csv") && gx_options_value(options, "json")) {
     fputs("gridcross run: --csv or --json, not both\n", stderr);
     return GX_EXIT_USAGE;
   }
-  struct gx_store_how how = {.resume = gx_options_value(options, "resume")};
-  int code = read_shard(options, &how);
+  if (run->ranks && !strcmp(options->operand[0], "-")) {
+    fputs("gridcross run: only one rank has standard input: name a file\n", stderr);
+    return GX_EXIT_USAGE;
+  }
+  if (read_shard(options, &run->how)) return GX_EXIT_USAGE;
+  const bool repeated = gx_options_value(options, "repeats");
+  run->jobs = gx_command_jobs(options);
+  if (!gx_options_value(options, "jobs")) run->jobs = gx_ranks_threads(run->ranks, run->jobs);
+  const size_t repeats = run->jobs && repeated ? gx_command_count(options, "repeats") : 0;
+  *directory = run->jobs && (repeats || !repeated) ? choose_directory(options, &run->how) : NULL;
+  *study = *directory ? gx_command_read(options) : NULL;
+  if (!*study) return GX_EXIT_USAGE;
+  (*study)->repeats = repeats;
+  if ((*study)->duplicates && !run->quiet)
+    fprintf(stderr, "note: %zu cases are equal to others and run once\n", (*study)->duplicates);
+  if (run->how.shards <= (*study)->count) return 0;
+  fprintf(stderr, "gridcross run: --shard %zu/%zu: the study has %zu cases and no more shards\n", run->how.shard, run->how.shards,
+          (*study)->count);
+  return GX_EXIT_USAGE;
+}
+
+static int run(const struct gx_options *options)
+{
+  struct running run = {.options = options, .quiet = gx_options_value(options, "quiet")};
+  struct gx_study *study = NULL;
+  char *directory = NULL;
+  int code = gx_ranks_begin(&run.ranks, gx_options_value(options, "shard"));
   if (code) return code;
-  bool repeated = gx_options_value(options, "repeats");
-  size_t jobs = gx_command_jobs(options), repeats = jobs && repeated ? gx_command_count(options, "repeats") : 0;
-  char *directory = jobs && (repeats || !repeated) ? choose_directory(options, &how) : NULL;
-  struct gx_study *study = directory ? gx_command_read(options) : NULL;
-  if (study) study->repeats = repeats;
-  code = GX_EXIT_USAGE;
-  if (study && study->duplicates && !gx_options_value(options, "quiet"))
-    fprintf(stderr, "note: %zu cases are equal to others and run once\n", study->duplicates);
-  if (study && how.shards > study->count)
-    fprintf(stderr, "gridcross run: --shard %zu/%zu: the study has %zu cases and no more shards\n", how.shard, how.shards,
-            study->count);
-  else if (study)
-    code = run_study(options, study, directory, jobs, &how);
+  run.how.resume = gx_options_value(options, "resume");
+  code = gx_ranks_agree(run.ranks, prepare(&run, &directory, &study));
+  run.directory = directory;
+  run.study = study;
+  if (!code) code = run_study(&run);
   if (study) gx_runfile_free(study);
   free(directory);
+  gx_ranks_end(run.ranks, run.broken, code);
   return code;
 }
 
@@ -182,6 +281,7 @@ static const struct gx_example example[] = {
     {"gridcross run my.yaml --csv --no-timing > table.csv", "the whole table, equal bytes on every repetition"},
     {"gridcross run my.yaml --repeats 5 -j 1",
      "costs that can be compared: one case at a time, without measures, median of five"},
+    {"mpirun -n 64 gridcross run my.yaml -q", "64 processes on any machines that see the directory, by a build with MPI"},
     {0},
 };
 

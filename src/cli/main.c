@@ -10,6 +10,7 @@
 #include "command.h"
 #include "completion.h"
 #include "manual.h"
+#include "ranks.h"
 #include "text.h"
 
 static void print_help(FILE *out)
@@ -37,9 +38,9 @@ static void print_version(void)
 {
   printf("gridcross %s (revision %s)\n"
          "compiler %s, flags %s\n"
-         "GSL %s, FFTW %s, HDF5 %s, libyaml %s\n",
+         "GSL %s, FFTW %s, HDF5 %s, libyaml %s, %s\n",
          gx_build.version, gx_build.git_revision, gx_build.compiler, gx_build.flags, gx_build.gsl, gx_build.fftw, gx_build.hdf5,
-         gx_build.yaml);
+         gx_build.yaml, gx_ranks_version());
 }
 
 static const struct gx_command *find_command(const char *name)

@@ -11,6 +11,7 @@
 
 #include <gridcross/recorder.h>
 
+#include "../core/checksum.h"
 #include "assembly.h"
 #include "hdf5_rows.h"
 #include "journals.h"
@@ -172,6 +173,11 @@ struct gx_store *gx_store_open(const char *directory, const struct gx_study *stu
   return NULL;
 }
 
+uint64_t gx_store_number(const struct gx_store *store)
+{
+  return gx_checksum(GX_CHECKSUM_START, store->identity, strlen(store->identity));
+}
+
 static int put(void *context, size_t index, struct gx_result *result)
 {
   struct gx_store *store = context;
@@ -266,9 +272,19 @@ static int assemble(struct gx_store *store, const struct gx_store_run *run)
   return failed;
 }
 
+/* Of those who joined to make its snapshots anew. */
+static int remove_journals(struct gx_store *store)
+{
+  struct gx_journals *journals = gx_journals_open(store->directory, store->identity, store->errors);
+  if (!journals) return -1;
+  gx_journals_remove(journals);
+  gx_journals_close(journals);
+  return 0;
+}
+
 int gx_store_finish(struct gx_store *store, const struct gx_store_run *run)
 {
-  if (store->finished) return 0;
+  if (store->finished) return remove_journals(store);
   int failed = gx_journal_close(store->journal);
   store->journal = NULL;
   return failed ? failed : assemble(store, run);

@@ -15,7 +15,7 @@ HOME = {
     "measure": "measures", "snapshot": "measures", "spectrum": "measures", "frequency": "measures", "budget": "measures", "paper": "papers", "parameter": "study", "simulation": "study", "study": "study", "store": "store", "recorder": "store", "series": "store", "advise": "view", "balance": "view", "compare": "view", "plot": "view", "report": "view", "starter": "view", "spectra": "view",
 }
 # Libraries that one file each may see.
-ONCE = {"yaml.h": [], "hdf5.h": [], "fftw3.h": []}
+ONCE = {"yaml.h": [], "hdf5.h": [], "fftw3.h": [], "mpi.h": []}
 
 root = pathlib.Path(sys.argv[1]).resolve()
 source_root = root / "src"
