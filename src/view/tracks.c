@@ -127,8 +127,8 @@ static int take(struct gx_tracks *tracks, const struct gx_series *series, size_t
   int failed = 0;
   for (size_t k = 0; k < tracks->paths && !failed; k++) {
     double at[2] = {before[k], x[tracks->index[k]]};
-    if (tracks->cells && i > 0 && isfinite(at[1] - at[0]))
-      failed = cross(tracks, k, (double)tracks->cells, at, &series->time[i - 1]);
+    bool near = fabs(at[0]) < 1000 && fabs(at[1] - at[0]) <= 1; /* else it is lost, and crosses edges without end */
+    if (tracks->cells && i > 0 && near) failed = cross(tracks, k, (double)tracks->cells, at, &series->time[i - 1]);
     before[k] = at[1];
     if (kept < tracks->times) tracks->path[k * tracks->times + kept] = at[1];
   }

@@ -187,7 +187,7 @@ function drawMarkers(chart, u, i) {
     const path = new Path2D(), kind = MARKERS[line.marker % MARKERS.length];
     filled.forEach((k, n) => {
       if (line.dense && n % every !== Math.floor(every / 2)) return;
-      markerPath(path, line.open ? "circle" : kind, u.valToPos(u.data[0][k], "x", true), u.valToPos(values[k], "y", true), (line.open ? 5 : line.points ? 3.2 : 4) * ratio);
+      markerPath(path, line.open ? "circle" : kind, u.valToPos(u.data[0][k], "x", true), u.valToPos(values[k], "y", true), (line.open ? 5 : 4) * ratio);
     });
     ctx.strokeStyle = line.open || kind === "cross" || kind === "plus" ? colour(line.colour) : colour("paper");
     ctx.fillStyle = colour(line.colour);

@@ -22,7 +22,7 @@ function ours(row) {
 }
 
 function paperTable(item) {
-  const text = (name, field) => ({name, key: row => row[field], cell: row => row[field] || ""});
+  const text = (name, field) => ({name, key: row => row[field], cell: row => (row[field] || "").replace(/e-(?=[0-9])/g, "e\u2212")});
   const columns = [
     {...text("row", "row"), head: true, kind: "soft"}, {...text("quantity", "quantity"), kind: "soft"},
     {name: "ours", numeric: true, key: row => row.ours, cell: ours},

@@ -27,7 +27,7 @@ function heading(table, column, i) {
     cell.append(column.name);
     return cell;
   }
-  const name = el("span", {class: "name"}, column.name);
+  const name = el("span", {class: "name"}, column.name.split(/(?<=\.)/).map((part, k) => [k ? el("wbr") : null, part]));
   const unit = table.units ? el("span", {class: "unit"}, pretty(column.unit) || "\u00a0") : null;
   const sort = button("", () => table.sortBy(i), {title: "Sort by " + (column.title || column.name)});
   sort.append(name, ...(unit ? [unit] : []));
