@@ -72,11 +72,11 @@ static void put_styles(const struct gx_figure *figure, FILE *out)
   for (size_t i = 0; i < figure->lines; i++) {
     const struct gx_figure_line *line = &figure->line[i];
     bool open = line->marker % GX_FIGURE_MARKERS >= GX_FIGURE_SHAPES, many = line->style != GX_FIGURE_LINES_POINTS;
+    bool thin = line->style == GX_FIGURE_CURVES || line->style == GX_FIGURE_POINTS; /* small open markers stay open */
     fprintf(out, "set style line %zu linecolor rgb '%s' linewidth %s dashtype %d", i + 1,
-            colours[line->colour % GX_FIGURE_COLOURS], line->style == GX_FIGURE_CURVES ? "0.8" : "1.6",
-            line->dash % GX_FIGURE_DASHES + 1);
+            colours[line->colour % GX_FIGURE_COLOURS], thin ? "0.8" : "1.6", line->dash % GX_FIGURE_DASHES + 1);
     if (has_markers(line))
-      fprintf(out, " pointtype %d pointsize %s", markers[line->marker % GX_FIGURE_MARKERS], many ? "0.6" : "0.9");
+      fprintf(out, " pointtype %d pointsize %s", markers[line->marker % GX_FIGURE_MARKERS], many ? "0.7" : "0.9");
     if (line->style == GX_FIGURE_LINES_POINTS && (figure->dense || open))
       fprintf(out, " pointinterval %s%zu", open ? "-" : "", figure->dense ? line->count / 8 + 1 : 1);
     putc('\n', out);

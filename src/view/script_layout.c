@@ -86,7 +86,7 @@ void gx_script_layout_terminal(const struct gx_script_layout *layout, const char
   if (!strcmp(ending, "svg"))
     fprintf(out, "set terminal svg size %.0f,%.0f font 'sans-serif,13' background '#ffffff'\n", width, height);
   else if (!strcmp(ending, "pdf"))
-    fprintf(out, "set terminal pdfcairo size %.2f,%.2f font 'sans,16' linewidth 1.5 pointscale 0.6\n", width / 96, height / 96);
+    fprintf(out, "set terminal pdfcairo size %.2f,%.2f font 'sans,16' linewidth 1.5 pointscale 0.8\n", width / 96, height / 96);
   else
     fprintf(out,
             "if (strstrt(GPVAL_TERMINALS, 'pngcairo')) {\n"
