@@ -15,6 +15,8 @@ struct gx_spectrum;
  * be called from several threads. NULL when memory runs out. */
 struct gx_spectrum *gx_spectrum_create(const struct gx_particles *particles, int per_side, bool periodic);
 void gx_spectrum_free(struct gx_spectrum *spectrum);
+/* Wavenumbers of such a spectrum, 0 included. */
+size_t gx_spectrum_count(int dim, int per_side, bool periodic);
 size_t gx_spectrum_bins(const struct gx_spectrum *spectrum);
 /* Wavenumber of bin i is i times this: 1 periodic, 1/2 between fixed ends; 1/m. */
 double gx_spectrum_spacing(const struct gx_spectrum *spectrum);

@@ -276,7 +276,7 @@ static int run(const struct gx_options *options)
 
 static const struct gx_example example[] = {
     {"gridcross run runs/quickstart.yaml", "into ./quickstart.study, and a table"},
-    {"gridcross run my.yaml --set mesh.cells=[32,64] --set method.clock=rk4 -o finer",
+    {"gridcross run my.yaml --set 'mesh.cells=[32,64]' --set method.clock=rk4 -o finer",
      "other values for one run, and another place"},
     {"gridcross run my.yaml --csv --no-timing > table.csv", "the whole table, equal bytes on every repetition"},
     {"gridcross run my.yaml --repeats 5 -j 1",

@@ -54,7 +54,7 @@ static const struct gx_command *find_command(const char *name)
   bool option = false;
   for (size_t i = 0; i < sizeof other / sizeof *other; i++) gx_nearest_try(&near, other[i]);
   for (size_t i = 0; i < sizeof other / sizeof *other; i++) option = option || !strcmp(near.best, other[i]);
-  fprintf(stderr, "gridcross: no command '%s'", name);
+  fprintf(stderr, "gridcross: no %s '%s'", *name == '-' ? "option" : "command", name);
   if (*near.best) fprintf(stderr, ": did you mean %s%s?", option ? "--" : "", near.best);
   fputs(*near.best ? "\n" : "; see gridcross --help\n", stderr);
   return NULL;
@@ -77,6 +77,10 @@ static int run_command(int argc, char **argv)
   if (!strcmp(argv[1], "--completion")) return gx_completion_print(stdout) ? gx_command_no_memory() : GX_EXIT_DONE;
   if (!strcmp(argv[1], "--manual")) {
     bool reference = argc > 2 && !strcmp(argv[2], "5");
+    if (argc > 2 && !reference && strcmp(argv[2], "1") != 0) {
+      fprintf(stderr, "gridcross: --manual takes 1, the program, or 5, run files, not '%s'\n", argv[2]);
+      return GX_EXIT_USAGE;
+    }
     return (reference ? gx_manual_reference : gx_manual_program)(stdout) ? gx_command_no_memory() : GX_EXIT_DONE;
   }
   bool help = !strcmp(argv[1], "help") && argc == 3;

@@ -109,6 +109,8 @@ int gx_options_parse(struct gx_options *options, const struct gx_command *comman
     if (options->help) return 0;
     if (failed) return failed;
   }
+  for (size_t i = 0; i < options->operands; i++)
+    if (!*options->operand[i]) return usage_error(command, errors, "an argument is empty", "");
   if (options->operands < (size_t)command->least) return usage_error(command, errors, "missing ", command->operands);
   if (command->most >= 0 && options->operands > (size_t)command->most)
     return usage_error(command, errors, "too many arguments, from ", options->operand[command->most]);

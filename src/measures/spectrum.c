@@ -72,17 +72,22 @@ static void find_places(struct gx_spectrum *spectrum, const struct gx_particles 
   }
 }
 
+size_t gx_spectrum_count(int dim, int per_side, bool periodic)
+{
+  const int highest = periodic ? per_side / 2 : per_side;
+  return (size_t)lround(sqrt(dim) * highest) + 1;
+}
+
 struct gx_spectrum *gx_spectrum_create(const struct gx_particles *particles, int per_side, bool periodic)
 {
   struct gx_spectrum *spectrum = calloc(1, sizeof *spectrum);
   if (!spectrum) return NULL;
-  int highest = periodic ? per_side / 2 : per_side;
   *spectrum = (struct gx_spectrum){
       .dim = particles->dim,
       .per_side = per_side,
       .periodic = periodic,
       .n = particles->n,
-      .bins = (size_t)lround(sqrt(particles->dim) * highest) + 1,
+      .bins = gx_spectrum_count(particles->dim, per_side, periodic),
       .spacing = periodic ? 1 : 0.5,
       .place = malloc(particles->n * sizeof(size_t)),
       .error = malloc(particles->n * sizeof(double)),

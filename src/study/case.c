@@ -12,6 +12,7 @@
 
 #include "../core/team.h"
 #include "../measures/restitution.h"
+#include "kept.h"
 #include "simulation_plan.h"
 #include "stability.h"
 #include "stable_dt.h"
@@ -83,22 +84,10 @@ static size_t nearest_particle(const struct gx_particles *particles, const char 
   return nearest;
 }
 
-static const double most_numbers = 1e8; /* kept of a case: more are a slip, or more than can be looked at */
-
-static enum gx_status prepare_history(struct run *run)
+static enum gx_status prepare_history(struct run *run, double samples)
 {
   struct gx_history *history = &run->result->history;
-  double samples = 0;
-  if (run->history_every > 0) samples += floor(run->simulation.steps / run->history_every) + 2;
-  if (run->budget_every > 0) samples += floor(run->simulation.steps / run->budget_every) + 2;
   bool probed = run->result->probe >= 0;
-  size_t bytes = sizeof *history->sample + probed * sizeof *history->probe + !!run->budget * sizeof *history->budget;
-  double each = (double)(bytes / sizeof(double));
-  if (samples * each > most_numbers)
-    return gx_status_set(
-        &run->result->outcome, GX_REFUSED, -1,
-        "histories of %.3g samples of %.3g numbers each are too many: make output.histories or output.budget larger", samples,
-        each);
   history->jumps = run->simulation.jumps;
   history->dim = run->simulation.particles->dim;
   history->sample = malloc((size_t)samples * sizeof *history->sample);
@@ -108,7 +97,7 @@ static enum gx_status prepare_history(struct run *run)
   return gx_status_set(&run->result->outcome, GX_FAILED, -1, "out of memory for %.3g history samples", samples);
 }
 
-static enum gx_status prepare_spectra(struct run *run)
+static enum gx_status prepare_spectra(struct run *run, double samples)
 {
   const struct gx_simulation *simulation = &run->simulation;
   const struct gx_space_options *options = &simulation->space_options;
@@ -122,10 +111,6 @@ static enum gx_status prepare_spectra(struct run *run)
       .nyquist = 0.5 * cells,
       .driven = simulation->problem_options.mode,
   };
-  double samples = floor(simulation->steps / run->spectra_every) + 2, each = (double)(GX_QUANTITIES * spectra->bins);
-  if (samples * each > most_numbers)
-    return gx_status_set(&run->result->outcome, GX_REFUSED, -1,
-                         "%.3g spectra of %.3g numbers each are too many: make output.spectra larger", samples, each);
   spectra->time = malloc((size_t)samples * sizeof(double));
   spectra->rms = malloc((size_t)samples * GX_QUANTITIES * spectra->bins * sizeof(double));
   if (spectra->time && spectra->rms) return GX_OK;
@@ -144,6 +129,7 @@ static enum gx_status prepare(struct run *run, const struct gx_case *one, double
   run->result->dt = simulation->dt;
   run->result->time = run->time = simulation->start;
   GX_TRY(gx_simulation_build(simulation, outcome));
+  GX_TRY(gx_kept_refuse(simulation, one, outcome));
   run->level = level_of(one);
   run->history_every = (double)one->value[GX_OUTPUT_HISTORIES].integer;
   run->spectra_every = (double)one->value[GX_OUTPUT_SPECTRA].integer;
@@ -172,9 +158,8 @@ static enum gx_status prepare(struct run *run, const struct gx_case *one, double
   if (run->budget && simulation->jumps) gx_budget_jumps(run->budget);
   if (simulation->problem->second && !(run->restitution = gx_restitution_create(simulation->space)))
     return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the restitution");
-  if (run->history_every > 0 || run->budget_every > 0) GX_TRY(prepare_history(run));
-  if (run->spectra_every > 0) GX_TRY(prepare_spectra(run));
-  GX_TRY(gx_watch_refuse(simulation, one, outcome));
+  if (run->history_every > 0 || run->budget_every > 0) GX_TRY(prepare_history(run, gx_kept_samples(simulation, one)));
+  if (run->spectra_every > 0) GX_TRY(prepare_spectra(run, gx_kept_spectra(simulation, one)));
   GX_TRY(gx_watch_begin(&run->watch, simulation, one, run->measure, run->means.observer, outcome));
   run->frequency.interval = run->frequency_every * simulation->dt;
   double m = 0, c = simulation->posed->speed;
@@ -463,7 +448,7 @@ struct gx_plan gx_case_plan(const struct gx_case *one)
   struct gx_plan plan = {.outcome = {.status = GX_OK, .particle = -1}, .stable_dt = NAN, .growth = NAN};
   struct gx_simulation simulation;
   if (gx_simulation_plan(&simulation, one, &plan.outcome) == GX_OK && gx_simulation_build(&simulation, &plan.outcome) == GX_OK &&
-      gx_watch_refuse(&simulation, one, &plan.outcome) == GX_OK) {
+      gx_kept_refuse(&simulation, one, &plan.outcome) == GX_OK) {
     plan.particles = (double)simulation.particles->n;
     plan.stable_dt = gx_stable_dt(one, false, NULL);
     if (!simulation.space->through_cells)

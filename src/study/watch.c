@@ -4,28 +4,12 @@
 
 #include <math.h>
 
-static const double most_numbers = 1e10; /* 80 GB: more are a slip, or more than can be looked at */
-
-double gx_watch_every(const struct gx_case *one)
-{
-  const struct gx_value *every = &one->value[GX_OUTPUT_SNAPSHOTS];
-  return every->type == GX_INTEGER ? (double)every->integer : 0;
-}
-
-enum gx_status gx_watch_refuse(const struct gx_simulation *simulation, const struct gx_case *one, struct gx_outcome *outcome)
-{
-  const double every = gx_watch_every(one), each = gx_snapshot_numbers(simulation->space, simulation->space_options.cells);
-  const double count = every > 0 ? ceil(simulation->steps / every) + 1 : 0;
-  if (count * each <= most_numbers) return GX_OK;
-  return gx_status_set(outcome, GX_REFUSED, -1,
-                       "%.3g snapshots of %.3g numbers each would be %.3g GB: make output.snapshots larger", count, each,
-                       count * each * sizeof(double) / 1e9);
-}
+#include "kept.h"
 
 enum gx_status gx_watch_begin(struct gx_watch *watch, const struct gx_simulation *simulation, const struct gx_case *one,
                               const struct gx_measure *measure, const struct gx_observer *observer, struct gx_outcome *outcome)
 {
-  const double every = gx_watch_every(one);
+  const double every = gx_kept_snapshots_every(one);
   if (!observer || every == 0) return GX_OK;
   watch->snapshots = gx_snapshot_create(simulation->space, simulation->clock, measure, simulation->space_options.cells);
   if (!watch->snapshots) return gx_status_set(outcome, GX_FAILED, -1, "out of memory for a snapshot");

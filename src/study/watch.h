@@ -14,10 +14,6 @@ struct gx_watch {
   double every; /* steps; 0: nothing is shown */
 };
 
-/* Steps between snapshots of a case; 0: none. */
-double gx_watch_every(const struct gx_case *one);
-/* Refuses more numbers than a disk should take. Of a simulation that was built. */
-enum gx_status gx_watch_refuse(const struct gx_simulation *simulation, const struct gx_case *one, struct gx_outcome *outcome);
 /* measure: of the simulation, from which snapshots are taken. observer: NULL: nobody. */
 enum gx_status gx_watch_begin(struct gx_watch *watch, const struct gx_simulation *simulation, const struct gx_case *one,
                               const struct gx_measure *measure, const struct gx_observer *observer, struct gx_outcome *outcome);

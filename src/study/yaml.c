@@ -38,6 +38,14 @@ static struct gx_place place_of_byte(const struct reader *reader, size_t offset)
   return place;
 }
 
+/* Marks count characters. */
+static bool is_tab(const struct reader *reader, const yaml_mark_t *mark)
+{
+  const char *c = reader->text;
+  for (size_t left = mark->index; *c && left > 0; c++) left -= (c[1] & 0xC0) != 0x80;
+  return *c == '\t';
+}
+
 static void report_syntax(struct reader *reader, const yaml_parser_t *parser)
 {
   if (parser->error == YAML_MEMORY_ERROR)
@@ -49,8 +57,9 @@ static void report_syntax(struct reader *reader, const yaml_parser_t *parser)
       while (offset > 0 && ((unsigned char)reader->text[--offset] & 0xC0) == 0x80) continue;
     gx_errors_add(reader->errors, place_of_byte(reader, offset), "not UTF-8 text: %s", parser->problem);
   } else
-    gx_errors_add(reader->errors, place_of(reader, &parser->problem_mark), "not valid YAML: %s%s%s", parser->problem,
-                  parser->context ? " " : "", parser->context ? parser->context : "");
+    gx_errors_add(reader->errors, place_of(reader, &parser->problem_mark), "not valid YAML: %s%s%s%s", parser->problem,
+                  parser->context ? " " : "", parser->context ? parser->context : "",
+                  is_tab(reader, &parser->problem_mark) ? "; indent by blanks, not by tabs" : "");
 }
 
 static bool has_anchor(const yaml_event_t *event)

@@ -27,9 +27,10 @@ void gx_gnuplot_quote(const char *text, size_t length, FILE *out)
   for (size_t i = 0; i < length; i++) fprintf(out, strchr("\"\\`@", text[i]) ? "\\%03o" : "%c", (unsigned char)text[i]);
 }
 
-void gx_gnuplot_text(const char *text, FILE *out)
+void gx_gnuplot_part(const char *text, size_t bytes, FILE *out)
 {
-  for (size_t length; *text; text += length ? length : 1) {
+  const char *end = text + bytes;
+  for (size_t length; text < end; text += length ? length : 1) {
     length = character(text);
     if (length == 0)
       putc('?', out);
@@ -38,6 +39,11 @@ void gx_gnuplot_text(const char *text, FILE *out)
     else
       gx_gnuplot_quote(text, length, out);
   }
+}
+
+void gx_gnuplot_text(const char *text, FILE *out)
+{
+  gx_gnuplot_part(text, strlen(text), out);
 }
 
 /* The environment in universal time, so that dates in an image have one length. [..., NULL], owned by the caller but for its texts. */

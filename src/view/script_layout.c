@@ -122,11 +122,45 @@ static void put_bar(const struct gx_figure *figure, const struct gx_script_layou
   gx_script_axis_colours(figure, out);
 }
 
+static bool is_blank(char c)
+{
+  return c == ' ' || c == '\n' || c == '\t';
+}
+
+/* Bytes of a line of at most so many letters, up to a blank where there is one. */
+static size_t fit(const char *text, size_t most)
+{
+  size_t blank = 0, at = 0;
+  for (size_t letters = 0; text[at]; at++) {
+    const bool begins = ((unsigned char)text[at] & 0xC0) != 0x80;
+    if (begins && letters == most) return blank ? blank : at;
+    letters += begins;
+    if (is_blank(text[at])) blank = at;
+  }
+  return at;
+}
+
+/* In two lines at most, as wide as the axes and the gap beside them. */
+static void put_title(const char *title, const struct gx_script_layout *layout, FILE *out)
+{
+  const size_t most = (size_t)((layout->right - LEFT + 2 * GAP) / LETTER);
+  size_t length = fit(title, most);
+  gx_gnuplot_part(title, length, out);
+  title += length;
+  while (is_blank(*title)) title++;
+  if (!*title) return;
+  length = fit(title, most);
+  if (title[length]) length = fit(title, most - 1);
+  fputs("\\n", out);
+  gx_gnuplot_part(title, length, out);
+  if (title[length]) fputs("…", out);
+}
+
 /* Of a figure with panels it is a label, since each of them has a title of its own. */
 static void put_heading(const struct gx_figure *figure, const struct gx_script_layout *layout, FILE *out)
 {
   fputs(figure->panels ? "set label \"" : "set title \"", out);
-  gx_gnuplot_text(figure->title, out);
+  put_title(figure->title, layout, out);
   fputs("\" ", out);
   if (figure->panels)
     fprintf(out, "at screen %.4f, screen %.4f center ", (LEFT + layout->right) / 2 / layout->width, 1 - 26 / layout->height);

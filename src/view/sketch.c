@@ -182,6 +182,9 @@ enum gx_plot_status gx_sketch_draw(struct gx_sketch *sketch, const char *name, F
   else if (gx_table_find(sketch->pivot->table, name) >= 0)
     gx_left_out_suggest(sketch->pivot->table, name, errors);
   else
-    fprintf(errors, "gridcross: there is nothing to draw: no case has %s at any time; --y names another: gridcross plot --help lists some\n", name);
+    fprintf(
+        errors,
+        "gridcross: there is nothing to draw: no case has %s at any time; --y names another: gridcross plot --help lists some\n",
+        name);
   return GX_PLOT_REFUSED;
 }

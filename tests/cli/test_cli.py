@@ -95,7 +95,8 @@ class Usage(Case):
             (["run", "-"], "-o"), (["run", "small.yaml", "-o", ""], "-o"), (["run", "none.yaml"], "none.yaml"),
             (["run", "small.yaml", "--set", "mesh.cell=3"], "mesh.cells"), (["check", "none.yaml"], "none.yaml"),
             (["init", "bar-liner"], "did you mean bar-linear?"), (["list", "clock"], "did you mean clocks?"),
-            (["compare"], "missing"), (["compare", "none"], "none"), (["compare", "."], "gridcross run writes"), (["compare", "small.yaml"], "gridcross run writes"),
+            (["compare"], "missing"), (["compare", ""], "an argument is empty"), (["--xyzzy"], "no option '--xyzzy'"),
+            (["--manual", "3"], "not '3'"), (["compare", "none"], "none"), (["compare", "."], "gridcross run writes"), (["compare", "small.yaml"], "gridcross run writes"),
         ]:
             with self.subTest(args=args):
                 done = self.call(*args, code=2, stdin=subprocess.DEVNULL)
@@ -354,6 +355,10 @@ class Check(Case):
         self.assertIn("4 cases, 4 with dt above the stable dt", out)
         out = self.call("check", "small.yaml", "--set", "method.basis=[bspline, cpgimp]").stdout
         self.assertIn("refused", out)
+        for key in ("histories", "spectra", "snapshots"):
+            out = self.call("check", "small.yaml", "--set", "time.steps=100000000000", "--set", f"output.{key}=1").stdout
+            self.assertIn("12 refused", out)
+            self.assertIn(f"make output.{key}", out)
         self.assertEqual([p.name for p in self.dir.iterdir()], ["small.yaml"])
 
 

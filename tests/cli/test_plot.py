@@ -241,7 +241,20 @@ class Hostile(Case):
             self.call("plot", "odd.study", "-o", "fig.svg")
             self.assert_inert("fig.svg")
             expected = re.sub(r"[\n\t\x7f]", " ", title)
-            self.assertIn(" ".join(expected.split()), [" ".join(t.split()) for t in self.texts("fig.svg")])
+            self.assertIn(" ".join(expected.split()), " ".join(" ".join(self.texts("fig.svg")).split()))  # of a line or two
+
+    def test_long_titles_take_two_lines(self):
+        words = " ".join(f"{i} ä\\`" for i in range(100))
+        for title, lines, end in ((words[:120], 2, words[112:120]), (words, 2, "…"), ("ä" * 300, 2, "…")):
+            (self.dir / "long.yaml").write_text(STUDY.replace("title: small", f"title: '{title}'"), encoding="utf-8")
+            self.run_study("long.yaml")
+            self.call("plot", "long.study", "-o", "fig.svg")
+            self.assert_inert("fig.svg")
+            found = [t for t in self.texts("fig.svg") if "ä" in t]
+            self.assertEqual(len(found), lines)
+            self.assertTrue(found[-1].endswith(end), found)
+            self.assertLess(max(map(len, found)), 75)
+            self.assertTrue("".join(title.split()).startswith("".join(" ".join(found).rstrip("…").split())))
 
     def test_study_names_in_labels(self):
         names = [HOSTILE.replace("/", "|"), "new\nline, comma", os.fsdecode(b"\xff\xfe bad utf-8")]
