@@ -97,6 +97,9 @@ struct gx_space_kind {
   /* spin += angular momentum of the affine part of velocities that are brought `ahead` seconds by the nodal acceleration,
    * kg m^2/s: what gx_particles does not show. spin: [GX_MAX_DIM]; NULL: there is none. */
   void (*spin)(struct gx_space *space, double ahead, double *spin);
+  /* Power of the body force of the last acceleration at velocities that it brings `ahead` seconds on, W. Returns false, or is NULL:
+   * sum m b v of the particles, settled. */
+  bool (*power)(struct gx_space *space, double ahead, double *power);
   /* Brings particles up to date with a state that lives on nodes; NULL: nothing to do. */
   void (*settle)(struct gx_space *space);
   /* Acceleration of the particles after accelerate. a: [dim][n], m/s^2. */

@@ -11,28 +11,56 @@ GX_CLONES void gx_vector_add(size_t n, double scale, const double *restrict rate
   for (size_t i = 0; i < n; i++) value[i] += scale * rate[i];
 }
 
-enum { LANES = GX_VECTOR_LANES };
-
-GX_CLONES void gx_vector_sum_piece(size_t n, const double *restrict value, double *restrict parts)
+GX_CLONES void gx_vector_line(size_t n, double start, double slope, const double *restrict x, double *restrict value)
 {
-  double part[LANES];
-  size_t whole = n - n % LANES;
-  memcpy(part, parts, sizeof part);
-  for (size_t i = 0; i < whole; i += LANES)
-    for (size_t k = 0; k < LANES; k++) part[k] += value[i + k];
-  for (size_t i = whole; i < n; i++) part[i - whole] += value[i];
-  memcpy(parts, part, sizeof part);
+  for (size_t i = 0; i < n; i++) value[i] = start + slope * x[i];
 }
 
-GX_CLONES void gx_vector_dot_piece(size_t n, const double *a, const double *b, double *restrict parts)
+enum { LANES = GX_VECTOR_LANES, HALF = LANES / 2 };
+
+/* Half of the partial sums: four doubles, for which every level has code. */
+typedef double half __attribute__((vector_size(HALF * sizeof(double))));
+
+/* sum += a * b * c of some entries from i on; b and c may be NULL: 1 */
+GX_CORE void add_some(size_t some, size_t i, const double *a, const double *b, const double *c, half *sum)
 {
-  double part[LANES];
-  size_t whole = n - n % LANES;
-  memcpy(part, parts, sizeof part);
-  for (size_t i = 0; i < whole; i += LANES)
-    for (size_t k = 0; k < LANES; k++) part[k] += a[i + k] * b[i + k];
-  for (size_t i = whole; i < n; i++) part[i - whole] += a[i] * b[i];
-  memcpy(parts, part, sizeof part);
+  half product = {0}, factor = {0};
+  memcpy(&product, a + i, some * sizeof(double));
+  if (b) memcpy(&factor, b + i, some * sizeof(double));
+  if (b) product *= factor;
+  if (c) memcpy(&factor, c + i, some * sizeof(double));
+  if (c) product *= factor;
+  *sum += product;
+}
+
+GX_CORE void add_products(size_t n, const double *a, const double *b, const double *c, double *parts)
+{
+  half sum[2];
+  const size_t whole = n - n % LANES;
+  memcpy(sum, parts, sizeof sum);
+  for (size_t i = 0; i < whole; i += LANES) {
+    add_some(HALF, i, a, b, c, &sum[0]);
+    add_some(HALF, i + HALF, a, b, c, &sum[1]);
+  }
+  for (size_t i = whole, h = 0; i < n; i += HALF, h++) add_some(n - i < HALF ? n - i : HALF, i, a, b, c, &sum[h]);
+  memcpy(parts, sum, sizeof sum);
+}
+
+GX_CLONES void gx_vector_sum_piece(size_t n, const double *value, double *parts)
+{
+  add_products(n, value, NULL, NULL, parts);
+}
+
+GX_CLONES void gx_vector_dot_piece(size_t n, const double *a, const double *b, double *parts)
+{
+  add_products(n, a, b, NULL, parts);
+}
+
+GX_CLONES double gx_vector_weighted(size_t n, const double *weight, const double *a, const double *b)
+{
+  double parts[LANES] = {0};
+  add_products(n, weight, a, b, parts);
+  return gx_vector_total(parts);
 }
 
 double gx_vector_total(const double *parts)
@@ -54,16 +82,6 @@ double gx_vector_dot(size_t n, const double *a, const double *b)
   double parts[LANES] = {0};
   gx_vector_dot_piece(n, a, b, parts);
   return gx_vector_total(parts);
-}
-
-GX_CLONES double gx_vector_square(size_t n, const double *restrict weight, const double *restrict value)
-{
-  double part[LANES] = {0};
-  size_t whole = n - n % LANES;
-  for (size_t i = 0; i < whole; i += LANES)
-    for (size_t k = 0; k < LANES; k++) part[k] += weight[i + k] * value[i + k] * value[i + k];
-  for (size_t i = whole; i < n; i++) part[i - whole] += weight[i] * value[i] * value[i];
-  return gx_vector_total(part);
 }
 
 GX_CLONES double gx_vector_max(size_t n, const double *restrict value)

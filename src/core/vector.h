@@ -8,6 +8,9 @@
 /* value += scale * rate; the arrays do not overlap. */
 void gx_vector_add(size_t n, double scale, const double *rate, double *value);
 
+/* value = start + slope * x, likewise. */
+void gx_vector_line(size_t n, double start, double slope, const double *x, double *value);
+
 /* Sums are made of partial results side by side, of every eighth entry: one addition need not wait for the one before, and the bits
  * are the same for every instruction set. They are the same too when an array is summed piece by piece, each piece but the last a
  * multiple of LANES long. PIECE: what is made of that many entries stays in cache. */
@@ -28,8 +31,8 @@ static inline size_t gx_vector_piece(size_t n, size_t from)
 double gx_vector_sum(size_t n, const double *value);
 /* sum(a * b); a and b may be the same. */
 double gx_vector_dot(size_t n, const double *a, const double *b);
-/* sum(weight * value^2) */
-double gx_vector_square(size_t n, const double *weight, const double *value);
+/* sum(weight * a * b); a and b may be the same. */
+double gx_vector_weighted(size_t n, const double *weight, const double *a, const double *b);
 /* max(value, 0); what is not a number is passed over. */
 double gx_vector_max(size_t n, const double *value);
 

@@ -28,15 +28,16 @@ GX_CORE void cauchy_points(const int dim, size_t n, double *const *F, double *co
     stress[k] = P[k];
     out[k] = sigma[k];
   }
+  GX_APART
   for (size_t p = 0; p < n; p++) {
     double f[GX_MAX_TENSOR], c[GX_MAX_TENSOR];
-    gx_tensor_load(dim, in, p, f);
+    for (int k = 0; k < dim * dim; k++) f[k] = in[k][p];
     double J = gx_tensor_cofactor(dim, f, c);
     for (int i = 0; i < dim; i++)
       for (int j = 0; j < dim; j++) {
         double sum = 0;
         for (int k = 0; k < dim; k++) sum += stress[i * dim + k][p] * f[j * dim + k];
-        out[i * dim + j][p] = sum / J;
+        out[i * dim + j][p] = dim == 1 ? stress[0][p] : sum / J;
       }
   }
 }

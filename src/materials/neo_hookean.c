@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "../core/logarithm.h"
 #include "../core/tensor.h"
 
 static const double huge = 1e100;
@@ -27,7 +28,7 @@ GX_CORE bool piola_points(const int dim, const bool bulk, const struct gx_moduli
     for (int k = 0; k < dim * dim; k++) f[k] = in[k][p];
     double J = gx_tensor_cofactor(dim, f, c);
     bad |= !(J > 0 && J < huge);
-    double share = ((bulk ? lambda * log(J) : 0) - mu) / J;
+    double share = ((bulk ? lambda * gx_logarithm(J) : 0) - mu) / J;
     for (int k = 0; k < dim * dim; k++) out[k][p] = mu * f[k] + share * c[k];
   }
   return bad;
@@ -69,7 +70,7 @@ GX_CORE void piola_rate_points(const int dim, const struct gx_moduli *moduli, si
       c[k] /= J;
       trace += c[k] * g[k];
     }
-    double bulk = lambda != 0 ? lambda * log(J) : 0;
+    double bulk = lambda != 0 ? lambda * gx_logarithm(J) : 0;
     for (int i = 0; i < dim; i++)
       for (int j = 0; j < dim; j++) {
         double twisted = 0;
@@ -88,18 +89,22 @@ static void piola_rate(const struct gx_moduli *moduli, int dimension, size_t n, 
   GX_FOR_DIM(dimension, piola_rate_points(dim, moduli, n, F, rate_F, rate_P))
 }
 
-GX_CORE void energy_points(const int dim, const struct gx_moduli *moduli, size_t n, double *const *F, double *W)
+GX_CORE void energy_points(const int dim, const struct gx_moduli *moduli, size_t n, double *const *F, double *restrict W)
 {
+  const double mu = moduli->mu, lambda = moduli->lambda;
+  double *in[GX_MAX_TENSOR];
+  for (int k = 0; k < dim * dim; k++) in[k] = F[k];
+  GX_APART
   for (size_t p = 0; p < n; p++) {
     double f[GX_MAX_TENSOR], c[GX_MAX_TENSOR], square = 0;
-    gx_tensor_load(dim, F, p, f);
-    double log_J = log(gx_tensor_cofactor(dim, f, c));
+    for (int k = 0; k < dim * dim; k++) f[k] = in[k][p];
+    const double log_J = gx_logarithm(gx_tensor_cofactor(dim, f, c));
     for (int k = 0; k < dim * dim; k++) square += f[k] * f[k];
-    W[p] = 0.5 * moduli->mu * (square - dim) - moduli->mu * log_J + 0.5 * moduli->lambda * log_J * log_J;
+    W[p] = 0.5 * mu * (square - dim) - mu * log_J + 0.5 * lambda * log_J * log_J;
   }
 }
 
-static void energy(const struct gx_moduli *moduli, int dimension, size_t n, double *const *F, double *W)
+GX_CLONES static void energy(const struct gx_moduli *moduli, int dimension, size_t n, double *const *F, double *W)
 {
   GX_FOR_DIM(dimension, energy_points(dim, moduli, n, F, W))
 }

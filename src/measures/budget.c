@@ -174,7 +174,7 @@ static void add_level(struct gx_budget *budget, struct gx_mesh *mesh, enum gx_bu
                       double *const *field)
 {
   double **out = budget->term[term].component, **seen = budget->seen.component, **before = budget->before.component;
-  gx_mesh_gather(mesh, field, seen);
+  gx_mesh_gather(mesh, field, seen, NULL);
   for (int d = 0; d < budget->particles->dim; d++)
     for (size_t p = 0; p < budget->particles->n; p++) out[d][p] += span * (seen[d][p] - before[d][p]);
   struct vector_field swap = budget->seen;
@@ -286,10 +286,10 @@ static enum gx_status take_velocity(struct gx_budget *budget, struct gx_space *s
   problem->exact(budget->integral->posed, t, NULL, budget->point, NULL, NULL);
   GX_TRY(gx_integral_project(budget->integral, false, budget->point, ideal->v));
   problem->exact(budget->posed, t, NULL, budget->exact.component, NULL, NULL);
-  gx_mesh_gather(mesh, ideal->v, budget->seen.component);
+  gx_mesh_gather(mesh, ideal->v, budget->seen.component, NULL);
   value[GX_BUDGET_INF_VELOCITY] = largest(dim, n, budget->exact.component, budget->seen.component);
   exact_gradient(budget, t);
-  gx_mesh_gather_gradient(mesh, ideal->v, budget->F);
+  gx_mesh_gather(mesh, ideal->v, NULL, budget->F);
   value[GX_BUDGET_INF_GRADIENT] = largest(dim * dim, n, budget->gradient, budget->F);
   return GX_OK;
 }

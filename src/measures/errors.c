@@ -77,22 +77,65 @@ struct norms {
   double parts[GX_VECTOR_LANES], most; /* of squares */
 };
 
-/* square += (value - exact)^2. exact: NULL: 0 */
-GX_CLONES static void add_square(size_t n, const double *restrict value, const double *restrict exact, double *restrict square)
+/* Half of the partial sums: as many as compilers compare at once everywhere. */
+enum { HALF = GX_VECTOR_LANES / 2 };
+typedef double lanes __attribute__((vector_size(HALF * sizeof(double))));
+typedef long long truths __attribute__((vector_size(HALF * sizeof(double))));
+
+/* Squares of some points from p on are summed and compared; lanes past them count 0. */
+GX_CORE void add_some(const int components, const bool differ, size_t some, size_t p, const double *const *value,
+                      const double *const *exact, lanes *sum, lanes *most)
 {
-  if (exact)
-    for (size_t p = 0; p < n; p++) square[p] += (value[p] - exact[p]) * (value[p] - exact[p]);
-  else
-    for (size_t p = 0; p < n; p++) square[p] += value[p] * value[p];
+  lanes square = {0};
+  for (int k = 0; k < components; k++) {
+    lanes error = {0}, less = {0};
+    memcpy(&error, value[k] + p, some * sizeof(double));
+    if (differ) memcpy(&less, exact[k] + p, some * sizeof(double));
+    error -= less;
+    square += error * error;
+  }
+  *sum += square;
+  const truths larger = square > *most;
+  *most = (lanes)(((truths)square & larger) | ((truths)*most & ~larger));
 }
 
-static void add_piece(struct norms *norms, size_t n, int components, double *const *value, double *const *exact)
+GX_CORE void add_points(const int components, const bool differ, size_t n, double *const *value, double *const *exact,
+                        struct norms *norms)
 {
-  double square[PIECE];
-  memset(square, 0, n * sizeof *square);
-  for (int k = 0; k < components; k++) add_square(n, value[k], exact ? exact[k] : NULL, square);
-  gx_vector_sum_piece(n, square, norms->parts);
-  norms->most = fmax(norms->most, gx_vector_max(n, square));
+  const double *in[GX_MAX_TENSOR], *less[GX_MAX_TENSOR];
+  const size_t whole = n - n % GX_VECTOR_LANES;
+  lanes sum[2], most[2] = {{0}, {0}};
+  for (int k = 0; k < components; k++) {
+    in[k] = value[k];
+    less[k] = differ ? exact[k] : NULL;
+  }
+  memcpy(sum, norms->parts, sizeof sum);
+  for (size_t p = 0; p < whole; p += GX_VECTOR_LANES)
+    for (size_t h = 0; h < 2; h++) add_some(components, differ, HALF, p + h * HALF, in, less, &sum[h], &most[h]);
+  for (size_t p = whole, h = 0; p < n; p += HALF, h++)
+    add_some(components, differ, n - p < HALF ? n - p : HALF, p, in, less, &sum[h], &most[h]);
+  memcpy(norms->parts, sum, sizeof sum);
+  for (int k = 0; k < HALF; k++) norms->most = fmax(norms->most, fmax(most[0][k], most[1][k]));
+}
+
+/* Adds a piece of so many components. exact: NULL: 0 */
+GX_CLONES static void add_piece(struct norms *norms, size_t n, int components, double *const *value, double *const *exact)
+{
+#define ADD(count)                                                                                                               \
+  case count:                                                                                                                    \
+    if (exact)                                                                                                                   \
+      add_points(count, true, n, value, exact, norms);                                                                           \
+    else                                                                                                                         \
+      add_points(count, false, n, value, exact, norms);                                                                          \
+    break;
+  switch (components) {
+    ADD(1)
+    ADD(2)
+    ADD(3)
+    ADD(4)
+    ADD(9)
+  }
+#undef ADD
 }
 
 static void finish(const struct norms *norms, size_t n, double *error)

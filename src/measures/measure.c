@@ -143,21 +143,24 @@ const struct gx_probe *gx_measure_probe(const struct gx_measure *measure)
   return &measure->probe;
 }
 
-/* Power of the body force at the particles' present velocity, W. */
-static double body_power(const struct gx_particles *particles, double *const *v)
+/* Power of the body force at velocities that are v or, on nodes, `ahead` seconds further on than the space's, W; v NULL: the particles',
+ * settled. */
+static double body_power(const struct gx_measure *measure, double ahead, double *const *v)
 {
+  struct gx_space *space = measure->space;
+  const struct gx_particles *particles = space->particles;
   double power = 0;
+  if (space->kind->power && space->kind->power(space, ahead, &power)) return power;
+  if (!v && space->kind->settle) space->kind->settle(space);
   for (int d = 0; d < particles->dim; d++)
-    for (size_t p = 0; p < particles->n; p++) power += particles->m[p] * particles->b[d][p] * v[d][p];
+    power += gx_vector_weighted(particles->n, particles->m, particles->b[d], v ? v[d] : particles->v[d]);
   return power;
 }
 
 static void add_work(void *context, struct gx_space *space, double weight)
 {
   struct gx_measure *measure = context;
-  if (!space->posed->problem->body) return;
-  if (space->kind->settle) space->kind->settle(space);
-  measure->work += weight * body_power(space->particles, space->particles->v);
+  if (space->posed->problem->body) measure->work += weight * body_power(measure, 0, NULL);
 }
 
 struct gx_work_observer gx_measure_work(struct gx_measure *measure)
@@ -206,11 +209,9 @@ static double potential(const struct gx_measure *measure)
   return gx_vector_total(parts);
 }
 
-static void energies(const struct gx_measure *measure, double dt, double defect, struct gx_sample *sample)
+static void energies(const struct gx_measure *measure, double dt, double defect, double kinetic, struct gx_sample *sample)
 {
   const struct gx_particles *particles = measure->space->particles;
-  double kinetic = 0;
-  for (int d = 0; d < measure->dim; d++) kinetic += 0.5 * gx_vector_square(measure->n, particles->m, measure->v.component[d]);
   sample->kinetic = kinetic;
   sample->elastic = potential(measure);
   sample->kinetic_nodes = measure->space->kind->kinetic(measure->space);
@@ -218,7 +219,7 @@ static void energies(const struct gx_measure *measure, double dt, double defect,
   sample->work = measure->work;
   if (measure->clock->staggered && measure->space->posed->problem->body)
     /* the half kick that the sample's velocity is ahead of the run's */
-    sample->work += 0.25 * dt * (body_power(particles, particles->v) + body_power(particles, measure->v.component));
+    sample->work += 0.25 * dt * (body_power(measure, 0, particles->v) + body_power(measure, 0.5 * dt, measure->v.component));
 }
 
 /* now = v + ahead a; now may be a */
@@ -409,10 +410,9 @@ static void keep_extremes(struct gx_measure *measure, const struct gx_sample *sa
 }
 
 /* Of the sample and, largest so far, relative to the largest sizes so far. */
-static void momenta(struct gx_measure *measure, double ahead, struct gx_sample *sample)
+static void momenta(struct gx_measure *measure, double ahead, struct gx_momentum now, struct gx_sample *sample)
 {
   struct gx_space *space = measure->space;
-  struct gx_momentum now = gx_momentum_of(space->particles, measure->v.component);
   if (space->kind->spin) space->kind->spin(space, ahead, now.angular);
   memcpy(sample->momentum, now.linear, sizeof sample->momentum);
   memcpy(sample->angular, now.angular, sizeof sample->angular);
@@ -447,8 +447,11 @@ enum gx_status gx_measure_take(struct gx_measure *measure, struct gx_stepper *st
   GX_TRY(synchronise(measure, stepper, t, ahead, &defect));
   const struct gx_errors_state state = state_of(measure, t);
   gx_errors_norms(&state, sample.error);
-  if (measure->level == GX_MEASURE_ALL) energies(measure, dt, defect, &sample);
-  if (measure->level == GX_MEASURE_ALL && !measure->space->posed->problem->space) momenta(measure, ahead, &sample);
+  if (measure->level == GX_MEASURE_ALL) {
+    const struct gx_momentum now = gx_momentum_of(measure->space->particles, measure->v.component);
+    energies(measure, dt, defect, now.kinetic, &sample);
+    if (!measure->space->posed->problem->space) momenta(measure, ahead, now, &sample);
+  }
   if (measure->jump) {
     gx_errors_of_vectors(measure->n, measure->dim, measure->jump->sum, sample.jump);
     sample.jump_step = measure->jump->step;

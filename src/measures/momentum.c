@@ -47,8 +47,9 @@ struct gx_momentum gx_momentum_of(const struct gx_particles *particles, double *
   double mass = gx_vector_sum(n, particles->m), square = 0, inertia = 0;
   for (int d = 0; d < dim; d++) {
     momentum.linear[d] = gx_vector_dot(n, particles->m, v[d]);
-    square += gx_vector_square(n, particles->m, v[d]);
+    square += gx_vector_weighted(n, particles->m, v[d], v[d]);
   }
+  momentum.kinetic = 0.5 * square;
   momentum.linear_size = sqrt(mass * square);
   for (int d = 0; d < dim && dim > 1; d++) {
     const struct moments moments = moments_along(particles, d, v);

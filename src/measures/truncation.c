@@ -70,7 +70,7 @@ double gx_truncation_acceleration(struct gx_truncation *truncation, double t, do
 {
   const struct gx_integral *integral = truncation->integral;
   double **value = truncation->value.component, **exact = truncation->exact.component;
-  gx_mesh_gather(integral->mesh, field, value);
+  gx_mesh_gather(integral->mesh, field, value, NULL);
   integral->posed->problem->exact(integral->posed, t, NULL, NULL, NULL, exact);
   for (int d = 0; d < integral->points->dim; d++) gx_vector_add(integral->points->n, -1, exact[d], value[d]);
   return gx_integral_norm(integral, value);
@@ -99,7 +99,7 @@ void gx_truncation_add(struct gx_truncation *truncation, const struct gx_space *
 
 void gx_truncation_velocity(struct gx_truncation *truncation, double *const *field)
 {
-  gx_mesh_gather(truncation->integral->mesh, field, truncation->nodal.component);
+  gx_mesh_gather(truncation->integral->mesh, field, truncation->nodal.component, NULL);
 }
 
 struct gx_truncation_errors gx_truncation_close(struct gx_truncation *truncation, double start, double end)

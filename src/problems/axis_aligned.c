@@ -7,6 +7,7 @@
 #include <stdbool.h>
 
 #include "../core/kernel.h"
+#include "../core/logarithm.h"
 #include "standing_wave.h"
 
 static double angle(const struct gx_posed *posed, int d, double t)
@@ -36,16 +37,30 @@ GX_CLONES static void body_without_bulk(size_t n, double A, double mu, double st
   }
 }
 
-static void body_with_bulk(const struct gx_posed *posed, const double *A, double stiff, double inertia, double *const *b)
+GX_CORE void body_points(const int dim, const struct gx_posed *posed, const double *A, double stiff, double inertia,
+                         double *const *b)
 {
-  const int dim = posed->options.dim;
   const double mu = posed->options.moduli.mu, lambda = posed->options.moduli.lambda;
+  double *sine[GX_MAX_DIM], *cosine[GX_MAX_DIM], *out[GX_MAX_DIM], slope[GX_MAX_DIM];
+  for (int d = 0; d < dim; d++) {
+    sine[d] = posed->sine[d];
+    cosine[d] = posed->cosine[d];
+    out[d] = b[d];
+    slope[d] = 2 * M_PI * A[d];
+  }
+  GX_APART
   for (size_t p = 0; p < posed->n; p++) {
     double F[GX_MAX_DIM], J = 1;
-    for (int d = 0; d < dim; d++) J *= F[d] = 1 + 2 * M_PI * A[d] * posed->cosine[d][p];
-    const double bulk = lambda * (1 - log(J));
-    for (int d = 0; d < dim; d++) b[d][p] = A[d] * posed->sine[d][p] * (stiff * (mu + (mu + bulk) / (F[d] * F[d])) - inertia);
+    for (int d = 0; d < dim; d++) J *= F[d] = 1 + slope[d] * cosine[d][p];
+    const double bulk = lambda * (1 - gx_logarithm(J));
+    for (int d = 0; d < dim; d++) out[d][p] = A[d] * sine[d][p] * (stiff * (mu + (mu + bulk) / (F[d] * F[d])) - inertia);
   }
+}
+
+GX_CLONES static void body_with_bulk(const struct gx_posed *posed, const double *A, double stiff, double inertia,
+                                     double *const *b)
+{
+  GX_FOR_DIM(posed->options.dim, body_points(dim, posed, A, stiff, inertia, b))
 }
 
 void gx_axis_aligned_body(const struct gx_posed *posed, double t, double *const *b)

@@ -4,26 +4,28 @@
 #define GRIDCROSS_PROBLEMS_STANDING_WAVE_H
 
 #include <math.h>
+#include <string.h>
 
 #include <gridcross/problem.h>
+
+#include "../core/vector.h"
 
 /* u, v, F, a from the factors T_d and dT_d/dt; d2T_d/dt2 = -omega^2 T_d. */
 static inline void gx_standing_wave_exact(const struct gx_posed *posed, double omega, const double *factor, const double *rate,
                                           double *const *u, double *const *v, double *const *F, double *const *a)
 {
-  int dim = posed->options.dim;
-  double wavenumber = 2 * M_PI * posed->options.mode;
+  const int dim = posed->options.dim;
+  const size_t n = posed->n;
   for (int d = 0; d < dim; d++) {
-    double A = posed->options.active[d] ? posed->options.amplitude : 0;
-    const double *sine = posed->sine[d], *cosine = posed->cosine[d];
-    if (u)
-      for (size_t p = 0; p < posed->n; p++) u[d][p] = A * factor[d] * sine[p];
-    if (v)
-      for (size_t p = 0; p < posed->n; p++) v[d][p] = A * rate[d] * sine[p];
-    if (a)
-      for (size_t p = 0; p < posed->n; p++) a[d][p] = -omega * omega * A * factor[d] * sine[p];
+    const double A = posed->options.active[d] ? posed->options.amplitude : 0, wave = A * factor[d];
+    if (u) gx_vector_line(n, 0, wave, posed->sine[d], u[d]);
+    if (v) gx_vector_line(n, 0, A * rate[d], posed->sine[d], v[d]);
+    if (a) gx_vector_line(n, 0, -omega * omega * wave, posed->sine[d], a[d]);
     for (int e = 0; F && e < dim; e++)
-      for (size_t p = 0; p < posed->n; p++) F[d * dim + e][p] = d == e ? 1 + wavenumber * A * factor[d] * cosine[p] : 0;
+      if (e == d)
+        gx_vector_line(n, 1, 2 * M_PI * posed->options.mode * wave, posed->cosine[d], F[d * dim + d]);
+      else
+        memset(F[d * dim + e], 0, n * sizeof(double));
   }
 }
 

@@ -1,7 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Standard MPM in 1-D with lumped mass and sums over particles: the transfers of a step. Particles are taken eight at a time from
- * eight distant parts of the bar in turn, so that adding to a node does not wait for the particle before to have done so; what they
- * add lies together in a record of each node. What is gathered is looked up in a window of nodes that is held in registers. */
+/* Standard MPM in 1-D with lumped mass and sums over particles: the transfers of a step, between particles p and nodes i,
+ *   weigh    S_ip, D_ip at x_p = X_p + u_p
+ *   scatter  m_i = sum_p m_p S_ip,  v_i = sum_p m_p v_p S_ip / m_i,  a_i = sum_p (-V0 P_p F_p D_ip + m_p b_p S_ip) / m_i
+ *   advance  v_p += kick sum_i a_i S_ip,  F_p += strain (sum_i v_i D_ip) F_p,  u_p += drift sum_i v_i S_ip
+ * Particles are taken eight at a time from eight distant parts of the bar in turn, so that adding to a node does not wait for the
+ * particle before to have done so; what they add lies together in a record of each node. What is gathered is looked up in a
+ * window of nodes that is held in registers. line_core.h has the passes, line_narrow.c and line_wide.c make them for vectors of four and
+ * of eight doubles, to the same bits. */
 #ifndef GRIDCROSS_SPACES_LINE_H
 #define GRIDCROSS_SPACES_LINE_H
 
@@ -14,7 +19,6 @@ struct gx_mesh;
 struct gx_line {
   struct gx_line_fields fields;
   const struct gx_line_passes *passes;
-  double *force; /* [stored] */
   void *block;
 };
 

@@ -391,14 +391,14 @@ double gx_mesh_kinetic(const struct gx_space *space)
 {
   const struct gx_mesh *mesh = (const struct gx_mesh *)space;
   double twice = 0;
-  for (int d = 0; d < mesh->grid.dim; d++) twice += gx_vector_square(mesh->grid.stored, mesh->mass, mesh->v[d]);
+  for (int d = 0; d < mesh->grid.dim; d++) twice += gx_vector_weighted(mesh->grid.stored, mesh->mass, mesh->v[d], mesh->v[d]);
   return 0.5 * twice;
 }
 
 void gx_mesh_particle_acceleration(struct gx_space *space, double *const *a)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
-  gx_mesh_gather(mesh, mesh->a, a);
+  gx_mesh_gather(mesh, mesh->a, a, NULL);
 }
 
 void gx_mesh_append(struct gx_state *state, int count, double *const *array, size_t length)

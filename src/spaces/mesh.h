@@ -73,9 +73,8 @@ void gx_mesh_momentum_keep(const struct gx_mesh *mesh, const double *momentum, d
 void gx_mesh_momentum_of(const struct gx_mesh *mesh, double *const *field, double *moment);
 /* Particles: GX_OPEN: y = u + span S v; GX_CLOSE: u = y + span S v. */
 void gx_mesh_open(struct gx_mesh *mesh, enum gx_primitive primitive, double span);
-/* Nodal fields at all particles, and their gradients. */
-void gx_mesh_gather(struct gx_mesh *mesh, double *const *field, double *const *value);
-void gx_mesh_gather_gradient(struct gx_mesh *mesh, double *const *field, double *const *gradient);
+/* A nodal field at all particles, and its gradient; either may be NULL. */
+void gx_mesh_gather(struct gx_mesh *mesh, double *const *field, double *const *value, double *const *gradient);
 /* field[d] <- M^-1 field[d] with ends held, for every component. */
 enum gx_status gx_mesh_solve(struct gx_mesh *mesh, double *const *field);
 double gx_mesh_kinetic(const struct gx_space *space);

@@ -18,7 +18,7 @@ static void gather_block(void *context, struct gx_block *block)
                      gathering->gradient ? gradient : NULL);
 }
 
-static void gather(struct gx_mesh *mesh, double *const *field, double *const *value, double *const *gradient)
+void gx_mesh_gather(struct gx_mesh *mesh, double *const *field, double *const *value, double *const *gradient)
 {
   struct gathering gathering = {mesh, value, gradient};
   if (mesh->lattice) {
@@ -27,14 +27,4 @@ static void gather(struct gx_mesh *mesh, double *const *field, double *const *va
   }
   gx_exchange_lend(&mesh->exchange, field, NULL);
   gx_blocks_each(&mesh->blocks, gather_block, &gathering);
-}
-
-void gx_mesh_gather(struct gx_mesh *mesh, double *const *field, double *const *value)
-{
-  gather(mesh, field, value, NULL);
-}
-
-void gx_mesh_gather_gradient(struct gx_mesh *mesh, double *const *field, double *const *gradient)
-{
-  gather(mesh, field, NULL, gradient);
 }

@@ -9,9 +9,11 @@
 
 #include <limits.h>
 #include <stdatomic.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "../core/kernel.h"
+#include "../core/large.h"
 #include "../core/vector.h"
 #include "slots.h"
 
@@ -19,6 +21,9 @@ struct moving_mesh {
   struct gx_mesh mesh;
   struct gx_slots *slots; /* 1-D lattices: forces slot by slot; NULL: by rows */
   double accelerated;     /* s, when the lattice last was */
+  /* The nodes' share of the body force then, N, once the power has been asked for; all of [GX_MAX_DIM][stored], NULL: it was not */
+  double *load;
+  bool loaded;
 };
 
 /* A hat has a slope where it has no value: a node that only particles on a face of its cells touch would strain them, freely. */
@@ -54,7 +59,10 @@ static enum gx_status create(const struct gx_space_kind *kind, struct gx_space *
 
 static void free_mesh(struct gx_space *space)
 {
-  if (space) gx_slots_free(((struct moving_mesh *)space)->slots);
+  if (space) {
+    gx_slots_free(((struct moving_mesh *)space)->slots);
+    free(((struct moving_mesh *)space)->load);
+  }
   gx_mesh_free(space);
 }
 
@@ -85,11 +93,21 @@ static void deform_block(const struct gx_mesh *mesh, const struct gx_block *bloc
   for (int d = 0; d < dim; d++) add_one(block->n, F[d * dim + d]);
 }
 
+/* A nodal field at the particles and 1 + its gradient, either of which may be NULL. */
+static void gather(struct gx_space *space, double *const *field, double *const *value, double *const *F)
+{
+  const struct gx_slots *slots = ((struct moving_mesh *)space)->slots;
+  if (slots) {
+    gx_slots_gather(slots, field[0], value ? value[0] : NULL, F ? F[0] : NULL);
+    return;
+  }
+  gx_mesh_gather((struct gx_mesh *)space, field, value, F);
+  for (int d = 0; F && d < space->particles->dim; d++) add_one(space->particles->n, F[d * space->particles->dim + d]);
+}
+
 static void deform(struct gx_mesh *mesh)
 {
-  const struct gx_particles *particles = mesh->space.particles;
-  gx_mesh_gather_gradient(mesh, mesh->u, particles->F);
-  for (int d = 0; d < particles->dim; d++) add_one(particles->n, particles->F[d * particles->dim + d]);
+  gather(&mesh->space, mesh->u, NULL, mesh->space.particles->F);
 }
 
 static long load(struct gx_mesh *mesh, struct gx_block *block)
@@ -170,6 +188,7 @@ static enum gx_status accelerate_lattice(struct moving_mesh *moving, double t)
   struct gx_mesh *mesh = &moving->mesh;
   const long tangled = moving->slots ? load_slots(moving, t) : load_rows(mesh, t);
   moving->accelerated = t;
+  moving->loaded = false;
   if (tangled < 0) return gx_mesh_solve(mesh, mesh->a);
   deform(mesh);
   return gx_status_set(mesh->space.outcome, GX_TANGLED, tangled, "det F of a particle is %g",
@@ -333,14 +352,50 @@ static void catch_up(struct moving_mesh *moving)
 static void settle(struct gx_space *space)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
-  deform(mesh);
+  const bool each_step = mesh->options.each_step;
+  gather(space, mesh->u, each_step ? NULL : space->particles->u, space->particles->F);
   if (mesh->lattice) catch_up((struct moving_mesh *)space);
-  if (mesh->options.each_step) return;
-  gx_mesh_gather(mesh, mesh->u, space->particles->u);
-  gx_mesh_gather(mesh, mesh->v, space->particles->v);
+  if (each_step) return;
+  gather(space, mesh->v, space->particles->v, NULL);
   double momentum[GX_MAX_DIM];
   gx_mesh_momentum_of(mesh, mesh->v, momentum);
   gx_mesh_momentum_keep(mesh, momentum, space->particles->v);
+}
+
+static void particle_acceleration(struct gx_space *space, double *const *a)
+{
+  gather(space, ((struct gx_mesh *)space)->a, a, NULL);
+}
+
+static void load_body(void *context, const struct gx_lattice_row *row)
+{
+  const struct moving_mesh *moving = context;
+  const struct gx_space *space = &moving->mesh.space;
+  const struct gx_posed part = gx_problem_part(space->posed, row->first, row->n);
+  part.problem->body(&part, moving->accelerated, row->body);
+  for (int d = 0; d < space->particles->dim; d++) times_mass(row->n, space->particles->m + row->first, row->body[d]);
+}
+
+/* load_i = sum m_p b_p S_ip. Particles without a velocity of their own take sum_i load_i v_i of power. */
+static bool power(struct gx_space *space, double ahead, double *power)
+{
+  struct moving_mesh *moving = (struct moving_mesh *)space;
+  const struct gx_mesh *mesh = &moving->mesh;
+  const size_t stored = mesh->grid.stored;
+  double *load[GX_MAX_DIM];
+  if (!mesh->lattice || mesh->options.each_step) return false;
+  if (!moving->load) moving->load = gx_large_zeros(GX_MAX_DIM * stored * sizeof(double));
+  if (!moving->load) return false;
+  for (int d = 0; d < mesh->grid.dim; d++) load[d] = moving->load + (size_t)d * stored;
+  if (!moving->loaded && moving->slots)
+    gx_slots_force(moving->slots, NULL, moving->accelerated, load[0]);
+  else if (!moving->loaded)
+    gx_lattice_run(mesh->lattice, &(struct gx_lattice_pass){.sum = load, .body = true, .visit = load_body, .context = moving});
+  moving->loaded = true;
+  *power = 0;
+  for (int d = 0; d < mesh->grid.dim; d++)
+    *power += gx_vector_dot(stored, load[d], mesh->v[d]) + (ahead != 0 ? ahead * gx_vector_dot(stored, load[d], mesh->a[d]) : 0);
+  return true;
 }
 
 static void state(struct gx_space *space, struct gx_state *list)
@@ -368,13 +423,13 @@ static void rates(struct gx_space *space, double *const *rate)
   rate += dim;
   if (mesh->options.each_step) {
     double impulse[GX_MAX_DIM];
-    gx_mesh_gather(mesh, mesh->a, rate);
+    gather(space, mesh->a, rate, NULL);
     gx_mesh_momentum_of(mesh, mesh->a, impulse);
     gx_mesh_momentum_keep(mesh, impulse, rate);
     if (mesh->options.particle_motion)
       for (int d = 0; d < dim; d++) memcpy(rate[dim + d], particles->v[d], particles->n * sizeof(double));
     else
-      gx_mesh_gather(mesh, mesh->v, rate + dim);
+      gather(space, mesh->v, rate + dim, NULL);
     rate += 2 * dim;
   } else {
     for (int d = 0; d < dim; d++) memcpy(rate[d], mesh->a[d], mesh->grid.stored * sizeof(double));
@@ -398,7 +453,8 @@ const struct gx_space_kind gx_moving_mesh = {
     .rates = rates,
     .kinetic = gx_mesh_kinetic,
     .settle = settle,
+    .power = power,
     .spin = gx_affine_spin,
-    .particle_acceleration = gx_mesh_particle_acceleration,
+    .particle_acceleration = particle_acceleration,
     .field = gx_mesh_field,
 };

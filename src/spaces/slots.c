@@ -21,10 +21,10 @@ struct gx_slots {
   int cells, slots, support, nodes;
   int base; /* lowest function that cell 0 meets */
   bool uniform;
-  double *D, *V0_D, *m_S; /* slope, -V0 slope, m value */
-  struct gx_posed *posed; /* at the particles, stretch by stretch and slot by slot */
-  double *F, *P, *b;      /* of a stretch, [slots][pitch] */
-  double *shares;         /* [support][ROW] sums over the slots of a cell; their margins are 0 */
+  double *S, *D, *V0_D, *m_S; /* value, slope, -V0 slope, m value */
+  struct gx_posed *posed;     /* at the particles, stretch by stretch and slot by slot */
+  double *F, *P, *b;          /* of a stretch, [slots][pitch] */
+  double *shares;             /* [support][ROW] sums over the slots of a cell; their margins are 0 */
   void *block;
 };
 
@@ -57,6 +57,7 @@ static size_t place(struct gx_slots *slots, double *at)
   const size_t weights = (slots->uniform ? (size_t)slots->slots : padded(slots)) * (size_t)slots->support;
   size_t used = 0;
 #define PLACE(array, length) used += gx_aligned_place(array, 1, length, at ? at + used : NULL)
+  PLACE(&slots->S, weights);
   PLACE(&slots->D, weights);
   PLACE(&slots->V0_D, weights);
   PLACE(&slots->m_S, weights);
@@ -146,14 +147,14 @@ struct gx_slots *gx_slots_create(const struct gx_lattice_line *line, const struc
   if (support_of(line) > GX_MAX_SUPPORT) return NULL;
   struct gx_slots *slots = calloc(1, sizeof *slots);
   if (!slots) return NULL;
-  const struct weights D = {line, line->D, NULL, 1}, V0_D = {line, line->D, particles->V0, -1},
+  const struct weights S = {line, line->S, NULL, 1}, D = {line, line->D, NULL, 1}, V0_D = {line, line->D, particles->V0, -1},
                        m_S = {line, line->S, particles->m, 1};
   slots->slots = line->period;
   slots->cells = line->points / line->period;
   slots->support = support_of(line);
   slots->base = line->first[0];
   slots->nodes = line->nodes;
-  slots->uniform = alike(&D) && alike(&V0_D) && alike(&m_S);
+  slots->uniform = alike(&S) && alike(&D) && alike(&V0_D) && alike(&m_S);
   double *arrays = gx_aligned_zeros(place(slots, NULL) * sizeof(double), &slots->block);
   slots->posed = pose(slots, particles, posed);
   if (!arrays || !slots->posed) {
@@ -161,6 +162,7 @@ struct gx_slots *gx_slots_create(const struct gx_lattice_line *line, const struc
     return NULL;
   }
   place(slots, arrays);
+  copy_weights(slots, &S, slots->S);
   copy_weights(slots, &D, slots->D);
   copy_weights(slots, &V0_D, slots->V0_D);
   copy_weights(slots, &m_S, slots->m_S);
@@ -182,45 +184,80 @@ static size_t weights_at(const struct gx_slots *slots, const struct stretch *str
   return slots->uniform ? row : stretch->at * (size_t)slots->support + row * stretch->pitch;
 }
 
-/* F = 1 + sum_k D_k u_k of the cells of a slot. */
-GX_CORE void deform_alike(const int support, size_t n, const double *restrict D, const double *restrict u, double *restrict F)
+/* value = start + sum_k w_k field_k of the cells of a slot. */
+GX_CORE void gather_alike(const int support, double start, size_t n, const double *restrict weight, const double *restrict field,
+                          double *restrict value)
 {
   double w[GX_MAX_SUPPORT];
-  for (int k = 0; k < support; k++) w[k] = D[k];
+  for (int k = 0; k < support; k++) w[k] = weight[k];
   for (size_t i = 0; i < n; i++) {
-    double sum = 1;
-    for (int k = 0; k < support; k++) sum += w[k] * u[i + (size_t)k];
-    F[i] = sum;
+    double sum = start;
+    for (int k = 0; k < support; k++) sum += w[k] * field[i + (size_t)k];
+    value[i] = sum;
   }
 }
 
 /* The same of any support, with one weight for all cells or one for each. */
-GX_CORE void deform_any(const int support, const bool uniform, size_t n, const double *restrict D, const double *restrict u,
-                        double *restrict F)
+GX_CORE void gather_any(const int support, const bool uniform, double start, size_t n, const double *restrict w,
+                        const double *restrict field, double *restrict value)
 {
-  for (size_t i = 0; i < n; i++) F[i] = 1;
+  for (size_t i = 0; i < n; i++) value[i] = start;
   for (size_t k = 0; k < (size_t)support; k++)
-    for (size_t i = 0; i < n; i++) F[i] += (uniform ? D[k] : D[k * n + i]) * u[i + k];
+    for (size_t i = 0; i < n; i++) value[i] += (uniform ? w[k] : w[k * n + i]) * field[i + k];
 }
 
-GX_CLONES static void deform(const struct gx_slots *slots, const struct stretch *stretch, const double *u)
+/* Of every slot of a stretch; start itself where there is no particle. value: [slots][pitch] */
+GX_CLONES static void gather(const struct gx_slots *slots, const struct stretch *stretch, const double *weights, double start,
+                             const double *field, double *values)
 {
   const size_t n = stretch->pitch;
   for (int slot = 0; slot < slots->slots; slot++) {
-    const double *D = slots->D + weights_at(slots, stretch, slot);
-    double *F = slots->F + (size_t)slot * n;
+    const double *w = weights + weights_at(slots, stretch, slot);
+    double *value = values + (size_t)slot * n;
     if (!slots->uniform)
-      deform_any(slots->support, false, n, D, u, F);
+      gather_any(slots->support, false, start, n, w, field, value);
     else if (slots->support == 2)
-      deform_alike(2, n, D, u, F);
+      gather_alike(2, start, n, w, field, value);
     else if (slots->support == 3)
-      deform_alike(3, n, D, u, F);
+      gather_alike(3, start, n, w, field, value);
     else if (slots->support == 4)
-      deform_alike(4, n, D, u, F);
+      gather_alike(4, start, n, w, field, value);
     else
-      deform_any(slots->support, true, n, D, u, F);
-    for (size_t i = (size_t)stretch->cells; i < n; i++) F[i] = 1; /* no particle */
+      gather_any(slots->support, true, start, n, w, field, value);
+    for (size_t i = (size_t)stretch->cells; i < n; i++) value[i] = start;
   }
+}
+
+/* From slots to particles. */
+GX_CORE void order(const int count, const struct stretch *stretch, const double *restrict values, double *restrict to)
+{
+  for (int i = 0; i < stretch->cells; i++)
+    for (int slot = 0; slot < count; slot++) to[i * count + slot] = values[(size_t)slot * stretch->pitch + (size_t)i];
+}
+
+GX_CLONES static void put_in_order(const struct gx_slots *slots, const struct stretch *stretch, const double *values, double *to)
+{
+  if (slots->slots == 2)
+    order(2, stretch, values, to);
+  else if (slots->slots == 4)
+    order(4, stretch, values, to);
+  else
+    order(slots->slots, stretch, values, to);
+}
+
+static void gather_in_order(const struct gx_slots *slots, const double *weights, double start, const double *field, double *to)
+{
+  for (int from = 0; from < slots->cells; from += STRETCH) {
+    const struct stretch stretch = stretch_from(slots, from);
+    gather(slots, &stretch, weights, start, field + slots->base + from, slots->F);
+    put_in_order(slots, &stretch, slots->F, to + stretch.at);
+  }
+}
+
+void gx_slots_gather(const struct gx_slots *slots, const double *field, double *value, double *F)
+{
+  if (value) gather_in_order(slots, slots->S, 0, field, value);
+  if (F) gather_in_order(slots, slots->D, 1, field, F);
 }
 
 /* Particles whose shares are taken, from a slot on. Weights as they start there. */
@@ -364,8 +401,12 @@ bool gx_slots_force(struct gx_slots *slots, const double *u, double t, double *f
   for (int from = 0; from < slots->cells; from += STRETCH) {
     const struct stretch stretch = stretch_from(slots, from);
     const size_t n = stretch.pitch * (size_t)slots->slots;
-    deform(slots, &stretch, u + slots->base + from);
-    sound = problem->material->piola(&slots->posed->options.moduli, 1, n, &slots->F, &slots->P) < 0 && sound;
+    if (u) {
+      gather(slots, &stretch, slots->D, 1, u + slots->base + from, slots->F);
+      sound = problem->material->piola(&slots->posed->options.moduli, 1, n, &slots->F, &slots->P) < 0 && sound;
+    } else {
+      memset(slots->P, 0, n * sizeof *slots->P);
+    }
     if (problem->body && n == slots->posed->n) {
       problem->body(slots->posed, t, &slots->b);
     } else if (problem->body) {

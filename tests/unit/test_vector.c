@@ -23,7 +23,7 @@ static void squares(void **state)
     value[i] = i % 5 - 2;
   }
   for (int n = 0; n <= MOST; n++) {
-    NEAR(gx_vector_square((size_t)n, weight, value), sum, 0);
+    NEAR(gx_vector_weighted((size_t)n, weight, value, value), sum, 0);
     if (n < MOST) sum += (n - 3) * (n % 5 - 2) * (n % 5 - 2);
   }
 }
