@@ -128,11 +128,17 @@ function spanOf(chart, axis) {
   return span(lines.flatMap(line => line[axis]), chart.spec[axis].log);
 }
 
+const ruler = document.createElement("canvas").getContext("2d");
+function widthOf(text) {
+  ruler.font = "12px system-ui, sans-serif";
+  return Math.ceil(ruler.measureText(text).width);
+}
+
 function axisOptions(chart, which) {
   const axis = chart.spec[which], across = which === "x";
   return {
     stroke: colour("muted"), font: "12px system-ui, sans-serif", labelFont: "12px system-ui, sans-serif",
-    label: titled(axis), labelSize: across ? 22 : 20, labelGap: across ? 2 : 4, size: across ? 30 : 58, gap: 5,
+    label: titled(axis), labelSize: across ? 22 : 20, labelGap: across ? 2 : 4, size: across ? 30 : (u, labels) => 16 + Math.max(34, ...(labels || []).map(widthOf)), gap: 5,
     grid: {stroke: colour("grid"), width: 1}, ticks: {stroke: colour("rule"), width: 1, size: 5},
     splits: (u, i, least, most) => {
       const room = across ? u.bbox.width / devicePixelRatio : 1.4 * u.bbox.height / devicePixelRatio;

@@ -58,7 +58,7 @@ function sideTable(column) {
       columns.push({name: "order", numeric: true, kind: "order", key: row => orders[row.k][r], cell: row => isNumber(orders[row.k][r]) ? orders[row.k][r].toFixed(2).replace("-", "\u2212") : ""});
     const key = row => resultKey(row.cases[r], column);
     const best = described.error || /seconds|ns_per/.test(described.name) ? leastOf(rows, key) : null;
-    columns.push({name: `${leaf(compare.path)} ${text}`, numeric: true, key, cell: row => resultCell(row.cases[r], column), best});
+    columns.push({name: isNaN(Number(text)) ? text : `${leaf(compare.path)} ${text}`, numeric: true, key, cell: row => resultCell(row.cases[r], column), best});
   });
   return sortable({label: titled(described), columns, rows, first: 60,
     caption: [titled(described), orders ? ", with the observed order between neighbours" : "", "; least values marked."]});
@@ -82,7 +82,7 @@ function failedTable() {
   if (!rows.length) return null;
   const at = (name, row) => result(row, name);
   const columns = [
-    {name: "case", head: true, key: row => caseLabel(row), cell: row => caseLabel(row) || row[0]},
+    {name: "case", head: true, kind: "soft", key: row => caseLabel(row), cell: row => caseLabel(row) || row[0]},
     {name: "status", key: row => row[1], cell: row => el("span", {class: "ended"}, row[1])},
     {name: "time", unit: "s", numeric: true, key: row => at("result.time", row), cell: row => number(at("result.time", row))},
     {name: "particle", numeric: true, key: row => at("result.particle", row), cell: row => number(at("result.particle", row))},
@@ -91,10 +91,17 @@ function failedTable() {
   return section("failed", "What failed, and why", sortable({label: "Cases that did not end well", columns, rows, first: 30}));
 }
 
+/* Whether a result has a line: two cases that differ in what refines alone. */
+function refines(column) {
+  const {compare, cases} = data;
+  const counts = (at, r) => isNumber(compare.rows[r][1]) && cases.rows[at] && cases.rows[at][1] === "ok" && isNumber(cases.rows[at][4][column]);
+  return compare.columns.some(c => c.cases.filter(counts).length > 1);
+}
+
 function refinementSection() {
   const {compare, cases} = data;
-  if (!compare || !compare.rows.some(row => isNumber(row[1])) || compare.rows.length < 2) return null;
-  const values = cases.columns.map((column, i) => i).filter(i => !/^result\.(particle|steps|time)$/.test(cases.columns[i].name));
+  const values = compare ? cases.columns.map((column, i) => i).filter(i => !/^result\.(particle|steps|time)$/.test(cases.columns[i].name) && refines(i)) : [];
+  if (!values.length) return null;
   const choice = {value: values[0], x: true, y: true};
   const drawn = chosen(() => refinementFigure(choice.value, choice.x, choice.y));
   const toggle = (text, which) => {
@@ -102,8 +109,8 @@ function refinementSection() {
     return made;
   };
   const [picker] = select("Result", values.map(i => titled(cases.columns[i])), i => { choice.value = values[i]; drawn.remake(); });
-  const refines = ["mesh.cells", "time.dt", "time.cfl"].includes(compare.path);
-  return section("convergence", refines ? "Convergence" : "Along " + compare.path,
+  const convergence = ["mesh.cells", "time.dt", "time.cfl"].includes(compare.path);
+  return section("convergence", convergence ? "Convergence" : "Along " + compare.path,
     el("p", {class: "note"}, "Drag to zoom, double-click or press 0 to see all; point at a mark for its values. Orders in the legend are those of the last two marks of a line."),
     el("div", {class: "controls"}, picker, toggle("log " + leaf(compare.path), "x"), toggle("log result", "y")), drawn.holder);
 }
@@ -112,7 +119,7 @@ function frontTable() {
   const {front, cases} = data, x = resultIndex(front.cost), y = resultIndex(front.error);
   const rows = front.members.map(member => ({row: cases.rows[member.case], why: member.why.trim().split("\n").filter(line => line)}));
   const columns = [
-    {name: "case", head: true, key: r => caseLabel(r.row), cell: r => caseLabel(r.row) || r.row[0]},
+    {name: "case", head: true, kind: "soft", key: r => caseLabel(r.row), cell: r => caseLabel(r.row) || r.row[0]},
     {name: short(front.error), unit: cases.columns[y].unit, numeric: true, key: r => r.row[4][y], cell: r => number(r.row[4][y], true)},
     {name: short(front.cost), unit: cases.columns[x].unit, numeric: true, key: r => r.row[4][x], cell: r => number(r.row[4][x])},
     {name: "why it is there; times its cost in brackets", kind: "wrap", key: r => r.why.join(), cell: r => r.why.map(line => el("div", {}, line))},
@@ -122,7 +129,8 @@ function frontTable() {
 
 function costSection() {
   const {front} = data;
-  const note = front.note.trim().split("\n").filter(line => line).map(line => el("p", {class: "note"}, line.replace(/^(gridcross|note): /, "").replace(/^./, c => c.toUpperCase()) + "."));
+  const note = front.note.trim().split("\n").filter(line => line).map(line => el("p", {class: "note"}, line.replace(/^(gridcross|note): /, "").replace(/^[a-z](?=[a-z]* )/, c => c.toUpperCase()) + "."));
+  if (front.members.length && front.counts.length < 2) return null;
   if (!front.members.length) return note.length ? section("cost", "Work and precision", note) : null;
   const once = data.studies.some(study => !study.repeats);
   return section("cost", "Work and precision",
@@ -164,7 +172,7 @@ function pairOf(curves, draw) {
     fill(first);
     return el("div", {}, el("div", {class: "controls keep"}, picker), holder);
   };
-  return el("div", {class: "pair"}, panel(0), curves.length > 1 ? panel(1) : null);
+  return el("div", {class: curves.length > 1 ? "pair" : null}, panel(0), curves.length > 1 ? panel(1) : null);
 }
 
 function spectrumSection() {

@@ -50,13 +50,21 @@ function strayed(entry, k, time) {
 
 const strayedCount = (entry, time) => entry.path.filter((_, k) => strayed(entry, k, time)).length;
 
-function tracksSummary(entry, time) {
+/* Cases that end well much earlier than others have a time axis of their own, all of it along the slider. */
+const endOf = (entry, view) => {
+  const own = entry.time[entry.time.length - 1];
+  return own > 0 && own < 0.2 * view.end && data.cases.rows[entry.case][1] === "ok" ? own : view.end;
+};
+const timeOf = (entry, view) => view.time / view.end * endOf(entry, view);
+
+function tracksSummary(entry, view) {
+  const time = timeOf(entry, view), own = time === view.time ? "" : ` at t = ${number(time)} s`;
   const shown = entry.path.length, kinds = [entry.row ? "of the row with most particles" : null,
     shown < entry.particles ? `${shown} of ${entry.particles} are drawn` : null].filter(kind => kind);
   const about = kinds.length ? ` (${kinds.join(", ")})` : "";
   if (!entry.edge.length) return `${plural(shown, "particle")}, no cells${about}.`;
   const far = entry.cells && entry.crossings.length === entry.crossed ? `, ${plural(entry.crossings.filter(([t]) => t <= time).length, "crossing")} so far` : "";
-  return `${entry.cells ? "Fixed" : "Moving"} cells: ${strayedCount(entry, time)} of ${plural(shown, "particle")} in another than at the start${far}${about}.`;
+  return `${entry.cells ? "Fixed" : "Moving"} cells: ${strayedCount(entry, time)} of ${plural(shown, "particle")} in another than at the start${far}${own}${about}.`;
 }
 
 /* view: {from, to, time, end}; shared by both panels */
@@ -67,7 +75,7 @@ function tracksPanel(entry, view) {
     "aria-label": `Particles and cells in time of ${label}. Up and down keys go through time, left and right along the bar, plus and minus zoom, 0 shows all.`}, canvas);
   const chart = {box};
   chart.redraw = () => {
-    caption.textContent = tracksSummary(entry, view.time);
+    caption.textContent = tracksSummary(entry, view);
     canvas.setAttribute("aria-label", caption.textContent);
     if (chart.size) drawTracks(canvas, entry, view, chart.size);
   };
@@ -110,15 +118,15 @@ function drawTracks(canvas, entry, view, width) {
   canvas.width = width * ratio;
   canvas.height = height * ratio;
   const ctx = canvas.getContext("2d"), right = width - RIGHT, bottom = height - AXIS - STRIP;
-  const px = x => LEFT + (x - view.from) / (view.to - view.from) * (right - LEFT), py = t => bottom - t / view.end * (bottom - TOP);
+  const px = x => LEFT + (x - view.from) / (view.to - view.from) * (right - LEFT), end = endOf(entry, view), py = t => bottom - t / end * (bottom - TOP);
   ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
   ctx.clearRect(0, 0, width, height);
-  drawTracksAxes(ctx, view, {width, height, right, bottom, px, py});
+  drawTracksAxes(ctx, {...view, end}, {width, height, right, bottom, px, py});
   ctx.save();
   ctx.beginPath();
   ctx.rect(LEFT, TOP, right - LEFT, bottom + STRIP - TOP);
   ctx.clip();
-  const time = Math.min(view.time, entry.time[entry.time.length - 1]);
+  const time = Math.min(timeOf(entry, view), entry.time[entry.time.length - 1]);
   const stroke = (paths, name, past, line, alpha) => {
     ctx.beginPath();
     paths.forEach(path => tracePath(ctx, entry, path, time, past, px, py));
