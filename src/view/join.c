@@ -70,7 +70,10 @@ static void name_candidates(const struct gx_table *table, const char *name, bool
     if (tail) meant = column;
   }
   if (!meant && *near.best) meant = near.best;
-  if (meant) fprintf(errors, ": did you mean %s?", meant);
+  if (meant)
+    fprintf(errors, ": did you mean %s?", meant);
+  else if (!parameter)
+    fputs("; the first line of the study's table.csv names all", errors);
   const char *gap = "; what varies here: ";
   for (size_t c = 0; c < table->columns && parameter; c++)
     if (gx_axes_parameter(table, c) && gx_axes_vary(table, c)) {

@@ -216,7 +216,8 @@ static void wrong_names_are_answered(void **state)
   (void)state;
   struct gx_table *table = make(6, refinement);
   const struct gx_table *const tables[] = {table};
-  const char *const name[] = {"s"}, *const cells[] = {"mesh.cells"}, *const crossing[] = {"result.crosings"};
+  const char *const name[] = {"s"}, *const cells[] = {"mesh.cells"}, *const crossing[] = {"result.crosings"},
+                    *const far[] = {"xyzzy"};
   struct gx_comparison all = {.studies = 1, .table = tables, .name = name}, one = all;
   one.rows = "cells";
   expect_error(one, "gridcross: no parameter 'cells': did you mean mesh.cells?; what varies here: mesh.cells, method.space, "
@@ -232,6 +233,8 @@ static void wrong_names_are_answered(void **state)
   one.values = 1;
   one.value = crossing;
   expect_error(one, "gridcross: no column 'result.crosings': did you mean result.crossings?\n");
+  one.value = far;
+  expect_error(one, "gridcross: no column 'xyzzy'; the first line of the study's table.csv names all\n");
   gx_table_free(table);
 }
 
