@@ -98,9 +98,11 @@ int gx_handle_get_integer(hid_t object, const char *name, int64_t *value)
 {
   hid_t attribute = H5Aopen(object, name, H5P_DEFAULT);
   if (attribute < 0) return -1;
-  hid_t space = H5Aget_space(attribute);
-  int failed =
-      space >= 0 && H5Sget_simple_extent_npoints(space) == 1 && H5Aread(attribute, H5T_NATIVE_INT64, value) >= 0 ? 0 : -1;
+  hid_t space = H5Aget_space(attribute), stored = H5Aget_type(attribute);
+  const bool fits = space >= 0 && stored >= 0 && H5Sget_simple_extent_npoints(space) == 1 &&
+                    H5Tget_class(stored) == H5T_INTEGER && H5Tget_size(stored) <= sizeof *value;
+  int failed = fits && H5Aread(attribute, H5T_NATIVE_INT64, value) >= 0 ? 0 : -1;
+  if (stored >= 0) H5Tclose(stored);
   if (space >= 0) H5Sclose(space);
   H5Aclose(attribute);
   return failed;
@@ -120,6 +122,21 @@ hssize_t gx_handle_shape(hid_t dataset, enum gx_type *type)
   if (stored >= 0) H5Tclose(stored);
   if (space >= 0) H5Sclose(space);
   return rows;
+}
+
+bool gx_handle_holds(hid_t object, double numbers)
+{
+  hsize_t bytes = 0;
+  hid_t file = H5Iget_file_id(object);
+  const bool known = file >= 0 && H5Fget_filesize(file, &bytes) >= 0;
+  if (file >= 0) H5Fclose(file);
+  return known && numbers * 8 <= (double)bytes;
+}
+
+hssize_t gx_handle_members(hid_t group)
+{
+  H5G_info_t info;
+  return H5Gget_info(group, &info) >= 0 && gx_handle_holds(group, (double)info.nlinks) ? (hssize_t)info.nlinks : -1;
 }
 
 bool gx_handle_member(hid_t group, hsize_t i, char name[GX_HANDLE_NAME])

@@ -48,5 +48,10 @@ bool gx_handle_member(hid_t group, hsize_t i, char name[GX_HANDLE_NAME]);
 hid_t gx_handle_make_dataset(hid_t group, const char *name, hid_t type, size_t rows);
 /* Number of rows and type of a dataset that can be a column, or -1. */
 hssize_t gx_handle_shape(hid_t dataset, enum gx_type *type);
+/* Whether the file that an object is of is as large as so many numbers of 8 bytes: what claims more is damaged, and no memory is taken
+ * for it. */
+bool gx_handle_holds(hid_t object, double numbers);
+/* How many members a group has, or -1, also for more than its file can hold. */
+hssize_t gx_handle_members(hid_t group);
 
 #endif

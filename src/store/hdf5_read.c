@@ -35,16 +35,17 @@ static int get_column(hid_t dataset, const char *name, struct gx_table *table, s
 struct gx_table *gx_hdf5_read_group(hid_t group)
 {
   struct gx_table *table = NULL;
-  H5G_info_t info;
-  if (H5Gget_info(group, &info) < 0 || info.nlinks == 0) return NULL;
-  for (hsize_t c = 0; c < info.nlinks; c++) {
+  const hssize_t columns = gx_handle_members(group);
+  if (columns <= 0) return NULL;
+  for (size_t c = 0; c < (size_t)columns; c++) {
     char name[GX_HANDLE_NAME];
     enum gx_type type;
     int failed = -1;
     if (gx_handle_member(group, c, name)) {
       hid_t dataset = H5Dopen2(group, name, H5P_DEFAULT);
       hssize_t rows = dataset < 0 ? -1 : gx_handle_shape(dataset, &type);
-      if (!table && rows >= 0) table = gx_table_create(info.nlinks, (size_t)rows);
+      if (!table && rows >= 0 && gx_handle_holds(dataset, (double)columns * (double)rows))
+        table = gx_table_create((size_t)columns, (size_t)rows);
       if (table && dataset >= 0) failed = get_column(dataset, name, table, c);
       if (dataset >= 0) H5Dclose(dataset);
     }
@@ -125,7 +126,7 @@ static struct gx_table *get_history(hid_t group, const char *name)
     enum gx_type type;
     hid_t dataset = H5Dopen2(group, column[c], H5P_DEFAULT);
     hssize_t rows = dataset < 0 ? -1 : gx_handle_shape(dataset, &type);
-    if (!table && rows >= 0) table = gx_table_create(2, (size_t)rows);
+    if (!table && rows >= 0 && gx_handle_holds(dataset, 2 * (double)rows)) table = gx_table_create(2, (size_t)rows);
     failed = !table || rows < 0 || get_column(dataset, column[c], table, c);
     if (dataset >= 0) H5Dclose(dataset);
   }

@@ -34,7 +34,7 @@ static int open_column(struct gx_hdf5_rows *rows, const char *name)
   hid_t dataset = H5Dopen2(rows->group, name, H5P_DEFAULT);
   rows->dataset[c] = dataset;
   hssize_t total = dataset < 0 ? -1 : gx_handle_shape(dataset, &type);
-  if (total < 0 || (c && (size_t)total != rows->total)) {
+  if (total < 0 || (c && (size_t)total != rows->total) || !gx_handle_holds(dataset, (double)total * (double)(c + 1))) {
     if (dataset >= 0) H5Dclose(dataset);
     return -1;
   }
@@ -48,13 +48,13 @@ static int open_column(struct gx_hdf5_rows *rows, const char *name)
 
 static int open_columns(struct gx_hdf5_rows *rows, size_t columns, const char *const *name)
 {
-  H5G_info_t info;
-  if (rows->group < 0 || rows->text < 0 || H5Gget_info(rows->group, &info) < 0 || info.nlinks == 0) return -1;
-  rows->dataset = calloc(info.nlinks, sizeof *rows->dataset);
-  rows->like = gx_table_create(info.nlinks, 0);
+  const hssize_t members = rows->group < 0 || rows->text < 0 ? -1 : gx_handle_members(rows->group);
+  if (members <= 0) return -1;
+  rows->dataset = calloc((size_t)members, sizeof *rows->dataset);
+  rows->like = gx_table_create((size_t)members, 0);
   if (!rows->dataset || !rows->like) return -1;
   rows->like->columns = 0;
-  for (hsize_t i = 0; i < info.nlinks; i++) {
+  for (hsize_t i = 0; i < (hsize_t)members; i++) {
     char member[GX_HANDLE_NAME];
     if (!gx_handle_member(rows->group, i, member)) return -1;
     if (is_wanted(member, columns, name) && open_column(rows, member)) return -1;
@@ -127,9 +127,8 @@ struct gx_table *gx_hdf5_rows_next(struct gx_hdf5_rows *rows, size_t most, size_
 
 bool gx_hdf5_rows_keeps(struct gx_hdf5_rows *rows, enum gx_hdf5_kept what)
 {
-  H5G_info_t info;
   hid_t group = gx_handle_open_group(rows->file, gx_hdf5_write_kept_name[what]);
-  const bool any = group >= 0 && H5Gget_info(group, &info) >= 0 && info.nlinks > 0;
+  const bool any = group >= 0 && gx_handle_members(group) > 0;
   if (group >= 0) H5Gclose(group);
   return any;
 }

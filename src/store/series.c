@@ -65,7 +65,9 @@ static int shape_of(hid_t dataset, size_t shape[GX_MAX_DIM])
     shape[d] = d < rank ? (size_t)extent[rank - 1 - d] : 1;
     numbers *= (double)shape[d];
   }
-  if (fits && (numbers < 1 || (double)H5Dget_storage_size(dataset) != numbers * sizeof(double))) fits = false;
+  if (fits &&
+      (numbers < 1 || (double)H5Dget_storage_size(dataset) != numbers * sizeof(double) || !gx_handle_holds(dataset, numbers)))
+    fits = false;
   if (type >= 0) H5Tclose(type);
   if (space >= 0) H5Sclose(space);
   return fits ? rank : -1;
@@ -160,9 +162,9 @@ static int compare_steps(const void *a, const void *b)
 static int list_snapshots(struct gx_series *series)
 {
   hid_t data = gx_handle_open_group(series->file->file, "data");
-  H5G_info_t info = {0};
-  int failed = data < 0 || H5Gget_info(data, &info) < 0 || info.nlinks == 0 ? -1 : 0;
-  series->count = failed ? 0 : info.nlinks;
+  const hssize_t members = data < 0 ? -1 : gx_handle_members(data);
+  int failed = members <= 0 ? -1 : 0;
+  series->count = failed ? 0 : (size_t)members;
   series->step = malloc((series->count + 1) * sizeof *series->step);
   series->time = malloc((series->count + 1) * sizeof *series->time);
   if (!series->step || !series->time) failed = -1;

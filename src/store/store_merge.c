@@ -14,6 +14,7 @@
 #include "journals.h"
 #include "store_rows.h"
 
+enum { MOST_SHARDS = 1000000 };                             /* as many as a study may have cases */
 enum { FEW = 8, BUFFERED = 16384, LEAST = 16, MOST = 512 }; /* shards that stay open; rows in memory, of all shards and of one */
 
 struct shard {
@@ -60,9 +61,12 @@ static bool are_equal(const char *a, const char *b)
 }
 
 /* Of the first directory: what all others must be, too. */
-static int settle(struct merge *merge, const struct gx_provenance *provenance)
+static int settle(struct merge *merge, const char *directory, const struct gx_provenance *provenance)
 {
-  if (provenance->shards > SIZE_MAX / 2 / sizeof *merge->shard || provenance->cases < provenance->shards) return -1;
+  if (provenance->shards > MOST_SHARDS || provenance->cases < provenance->shards) {
+    fprintf(merge->errors, "%s: its provenance is damaged\n", directory);
+    return -1;
+  }
   merge->identity = strdup(provenance->identity);
   merge->shard = calloc(provenance->shards, sizeof *merge->shard);
   if (!merge->identity || !merge->shard) return gx_assembly_say(merge->errors, NULL);
@@ -79,7 +83,7 @@ static int check_shard(struct merge *merge, const char *first, const char *direc
     fprintf(errors, "%s: holds a whole study, not a shard of one\n", directory);
     return -1;
   }
-  if (!merge->shard && settle(merge, provenance)) return -1;
+  if (!merge->shard && settle(merge, directory, provenance)) return -1;
   if (!gx_provenance_equal(provenance->identity, merge->identity, NULL) || provenance->cases != merge->cases) {
     fprintf(errors, "%s: is a shard of another study than %s; they differ in ", directory, first);
     gx_provenance_equal(provenance->identity, merge->identity, errors);

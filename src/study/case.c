@@ -226,6 +226,18 @@ static enum gx_status take_budget(struct run *run, double step)
   return GX_OK;
 }
 
+/* Sums of squares over all particles: one that is not a number shows in them. */
+static enum gx_status refuse_nonsense(struct run *run)
+{
+  const struct gx_problem *problem = run->simulation.problem;
+  const struct gx_sample *sample = &gx_measure_result(run->measure)->last;
+  for (int q = 0; q < GX_QUANTITIES && problem->exact; q++)
+    if ((q != GX_STRESS || problem->material->piola) && !isfinite(sample->error[q][GX_RMS]))
+      return gx_status_set(&run->result->outcome, GX_UNSTABLE, -1, "the error of %s is not a finite number",
+                           gx_measure_quantity[q].name);
+  return GX_OK;
+}
+
 static enum gx_status take_sample(struct run *run, double step)
 {
   const struct gx_simulation *simulation = &run->simulation;
@@ -241,6 +253,7 @@ static enum gx_status take_sample(struct run *run, double step)
   GX_TRY(gx_measure_take(run->measure, run->stepper, run->time, simulation->dt));
   if (timed) *(first ? &run->observing : &run->timed_seconds) += seconds_now(run) - before - (before - reading);
   run->timed += timed && !first;
+  GX_TRY(refuse_nonsense(run));
   struct gx_history *history = &run->result->history;
   if (kept && history->probe) history->probe[history->samples] = *gx_measure_probe(run->measure);
   if (kept && history->budget) history->budget[history->samples] = run->budgeted;
@@ -309,7 +322,7 @@ static enum gx_status take_steps(struct run *run)
     result->steps = step;
     result->time = run->time;
     double kinetic = kinetic_energy(run);
-    if (isnan(kinetic)) return gx_status_set(&result->outcome, GX_UNSTABLE, -1, "a velocity is not a number");
+    if (!isfinite(kinetic)) return gx_status_set(&result->outcome, GX_UNSTABLE, -1, "the kinetic energy is not a finite number");
     if (!(kinetic <= run->kinetic_limit))
       return gx_status_set(&result->outcome, GX_UNSTABLE, -1, "kinetic energy %.4g J, over 25 times %s", kinetic,
                            simulation->problem->exact ? "the exact solution's" : "the energy that there is");

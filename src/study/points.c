@@ -321,7 +321,7 @@ int gx_points_read(struct gx_settings *settings, const char *runfile, const stru
 {
   struct gx_study *study = settings->study;
   int failed = 0;
-  for (size_t i = 0; i < study->count && !settings->errors->out_of_memory; i++) {
+  for (size_t i = 0; i < study->count && !gx_errors_full(settings->errors); i++) {
     struct gx_case *one = &study->cases[i];
     if (one->value[GX_BODY_FILE].type != GX_TEXT) continue;
     char *path = path_from(runfile, one->value[GX_BODY_FILE].text);

@@ -10,7 +10,7 @@
 #include "../core/nearest.h"
 #include "number.h"
 
-enum { MOST_IN_RANGE = 1000000 };
+enum { MOST_IN_RANGE = 1000000, MOST_IN_RANGES = 4 * MOST_IN_RANGE };
 
 static bool report_choice(struct gx_errors *errors, struct gx_place place, const struct gx_parameter *parameter, const char *text)
 {
@@ -151,6 +151,13 @@ static void fill_range(struct gx_settings *settings, struct gx_setting *setting,
                        struct gx_value first, struct gx_value last, size_t n)
 {
   double a = as_real(first), b = as_real(last);
+  settings->ranged += n;
+  if (settings->ranged > MOST_IN_RANGES) {
+    gx_errors_add(settings->errors, place->place, "%s: the ranges of this file have more than %d values together",
+                  gx_parameters[setting->id].path, MOST_IN_RANGES);
+    settings->uncertain = true;
+    return;
+  }
   if (!take_items(settings, setting, n)) return;
   for (size_t i = 0; i < n; i++) {
     double x = fourteen_digits(between(geom, a, b, (double)i / (double)(n - 1)));

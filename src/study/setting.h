@@ -44,6 +44,7 @@ struct gx_settings {
   size_t ordered;
   bool named[GX_PARAMETERS];
   bool varied[GX_PARAMETERS]; /* named or cleared by a case, or a list */
+  size_t ranged;              /* values of all ranges together */
   bool uncertain;             /* an error hides what other parameters depend on: do not judge those */
   bool incomplete;            /* an error hides some of several such values */
   bool name_excused;          /* problem.name may be behind a key that was reported as misspelt */

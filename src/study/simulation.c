@@ -159,6 +159,25 @@ static bool is_inside(const void *simulation, const double *X)
   return of->problem->inside(&of->problem_options, X);
 }
 
+/* Listed particles may be of any size, and GIMP's functions are those of domains within a cell. Where domains deform, each step looks. */
+static enum gx_status refuse_domains(const struct gx_simulation *simulation, struct gx_outcome *outcome)
+{
+  const struct gx_basis *basis = simulation->space_options.basis;
+  const struct gx_particles *particles = simulation->particles;
+  if (!simulation->points || !basis || !basis->has_domain || basis->deforms) return GX_OK;
+  for (int d = 0; d < particles->dim; d++)
+    for (size_t p = 0; p < particles->n; p++) {
+      const double width = 2 * particles->half_length[d][p] * simulation->space_options.cells[d];
+      if (width > 1 + 1e-12)
+        return gx_status_set(
+            outcome, GX_REFUSED, (long)p,
+            "the domain of a particle is %.4g cells wide; %s needs 0 to 1: use fewer cells, smaller particles, or "
+            "another basis",
+            width, basis->name);
+    }
+  return GX_OK;
+}
+
 enum gx_status gx_simulation_lay_out(struct gx_simulation *simulation, struct gx_outcome *outcome)
 {
   const struct gx_problem_options *options = &simulation->problem_options;
@@ -169,7 +188,7 @@ enum gx_status gx_simulation_lay_out(struct gx_simulation *simulation, struct gx
                                              options->moduli.density, simulation->problem->inside ? is_inside : NULL, simulation);
   if (!simulation->particles)
     return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the particles of %d cells a direction: use fewer", cells[0]);
-  if (simulation->particles->n) return GX_OK;
+  if (simulation->particles->n) return refuse_domains(simulation, outcome);
   return gx_status_set(outcome, GX_REFUSED, -1,
                        "no particle is inside the body: use more than %d cells, more than %d particles a cell, or a larger body",
                        cells[0], simulation->per_cell);
