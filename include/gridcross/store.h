@@ -88,8 +88,8 @@ int gx_store_close(struct gx_store *store);
  * byte, with its snapshots. command: the command line. */
 int gx_store_merge(size_t shards, const char *const *shard, const char *directory, const char *command, FILE *errors);
 
-/* The table of a study directory piece by piece, with the timing columns. column: [columns] that are wanted, "case" among them; NULL:
- * all. NULL after a message. errors is borrowed to the end. */
+/* The table of a study directory piece by piece, with the timing columns. column: [columns] that are wanted, "case" among them where a
+ * timing column is; NULL: all. Without a timing column among them there are none. NULL after a message. errors is borrowed to the end. */
 struct gx_store_rows *gx_store_rows_begin(const char *directory, size_t columns, const char *const *column, FILE *errors);
 size_t gx_store_rows_total(const struct gx_store_rows *rows);
 /* The next rows, so many or what is left; NULL after a message. */

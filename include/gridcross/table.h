@@ -23,6 +23,8 @@ struct gx_table {
 
 /* A table of null values; NULL when memory runs out. Columns are named with gx_table_column. */
 struct gx_table *gx_table_create(size_t columns, size_t rows);
+/* All values are null again; columns and memory stay. */
+void gx_table_clear(struct gx_table *table);
 void gx_table_free(struct gx_table *table);
 /* Copies name and unit. Returns 0, or -1 when memory runs out. */
 int gx_table_column(struct gx_table *table, size_t column, const char *name, const char *unit, enum gx_type type);

@@ -12,7 +12,7 @@
 #include "../view/sheet.h"
 #include "command.h"
 
-enum { PART = 512 }; /* rows that are printed at once */
+enum { PART = 512, MOST = 2000, TOLD = 10 }; /* rows that are looked at at once; that a table for people has; warnings */
 
 static const char *const shown[] = {"result.status",       "result.displacement.max.rms",
                                     "result.restitution",  "result.crossings",
@@ -47,11 +47,18 @@ static int print_all(const struct gx_options *options, const char *directory)
   return code;
 }
 
-static bool varies(const struct gx_study *study, int id)
+/* Of 10^5 cases most values are the same to the bit. */
+static bool differ(struct gx_value a, struct gx_value b)
 {
+  return (a.type != b.type || a.integer != b.integer) && gx_value_compare(a, b);
+}
+
+static void find_varied(const struct gx_study *study, bool varied[GX_PARAMETERS])
+{
+  memset(varied, 0, GX_PARAMETERS * sizeof *varied);
   for (size_t i = 1; i < study->count; i++)
-    if (gx_value_compare(study->cases[0].value[id], study->cases[i].value[id])) return true;
-  return false;
+    for (int id = 0; id < GX_PARAMETERS; id++)
+      if (!varied[id]) varied[id] = differ(study->cases[0].value[id], study->cases[i].value[id]);
 }
 
 static bool has_budgets(const struct gx_study *study)
@@ -67,21 +74,24 @@ static const char *budget_column(int entry, char name[80])
   return name;
 }
 
-/* The columns that are looked at here, of all rows; NULL after a message. */
-static struct gx_table *read_brief(const struct gx_study *study, const char *directory)
+/* The columns that are looked at here, of the first rows. total: rows that there are. NULL after a message. */
+static struct gx_table *read_brief(const struct gx_study *study, const char *directory, size_t *total)
 {
   static const char *const case_column = "case";
   const char *name[GX_PARAMETERS + SHOWN + GX_BUDGET_ENTRIES + 1];
   char budget[GX_BUDGET_ENTRIES][80];
+  bool varied[GX_PARAMETERS];
   size_t names = 0;
   name[names++] = case_column;
+  find_varied(study, varied);
   for (int id = 0; id < GX_PARAMETERS; id++)
-    if (varies(study, id)) name[names++] = gx_parameters[id].path;
+    if (varied[id]) name[names++] = gx_parameters[id].path;
   for (int i = 0; i < SHOWN; i++) name[names++] = shown[i];
   const bool budgets = has_budgets(study);
   for (int i = 0; i < GX_BUDGET_ENTRIES && budgets; i++) name[names++] = budget_column(i, budget[i]);
   struct gx_store_rows *rows = gx_store_rows_begin(directory, names, name, stderr);
-  struct gx_table *table = rows ? gx_store_rows_next(rows, SIZE_MAX) : NULL;
+  struct gx_table *table = rows ? gx_store_rows_next(rows, MOST) : NULL;
+  *total = rows ? gx_store_rows_total(rows) : 0;
   gx_store_rows_end(rows);
   return table;
 }
@@ -157,21 +167,58 @@ static void print_budgets(const struct gx_study *study, const struct gx_table *t
   }
 }
 
-static void warn_unstable(const struct gx_table *table)
+/* What is said of all cases. */
+struct tally {
+  size_t failed, above; /* above the largest stable step */
+};
+
+/* tell: says which they are, of those above the first ten. */
+static void look_at(const struct gx_table *part, bool tell, bool quiet, struct tally *tally)
 {
-  size_t above = 0;
-  for (size_t r = 0; r < table->rows; r++) {
-    double dt = gx_value_number(value_at(table, r, "result.dt")),
-           stable = gx_value_number(value_at(table, r, "result.stable_dt"));
-    if (!(dt > stable) || above++ >= 10) continue;
-    if (stable == 0)
+  const size_t status = (size_t)gx_table_find(part, "result.status"), dt = (size_t)gx_table_find(part, "result.dt"),
+               stable = (size_t)gx_table_find(part, "result.stable_dt");
+  for (size_t r = 0; r < part->rows; r++) {
+    const struct gx_value ended = gx_table_get(part, r, status);
+    const double step = gx_value_number(gx_table_get(part, r, dt)), largest = gx_value_number(gx_table_get(part, r, stable));
+    if (ended.type == GX_TEXT && !strcmp(ended.text, gx_status_name(GX_FAILED))) {
+      tally->failed++;
+      if (tell)
+        fprintf(stderr, "gridcross run: case %s failed: %s\n", text_at(part, r, "case"), text_at(part, r, "result.reason"));
+    }
+    if (!(step > largest) || quiet || tally->above++ >= TOLD || !tell) continue;
+    if (largest == 0)
       fprintf(stderr, "warning: case %s: no time step is stable for this clock with projection each-step; use projection once\n",
-              text_at(table, r, "case"));
+              text_at(part, r, "case"));
     else
-      fprintf(stderr, "warning: case %s: dt = %.4g s is above the largest stable step, about %.4g s\n", text_at(table, r, "case"),
-              dt, stable);
+      fprintf(stderr, "warning: case %s: dt = %.4g s is above the largest stable step, about %.4g s\n", text_at(part, r, "case"),
+              step, largest);
   }
-  if (above > 10) fprintf(stderr, "warning: and %zu cases more\n", above - 10);
+}
+
+/* Returns 0, or -1 after a message. */
+static int look_through(const char *directory, bool tell, bool quiet, struct tally *tally)
+{
+  static const char *const column[] = {"result.status", "result.dt", "result.stable_dt", "case", "result.reason"};
+  struct gx_store_rows *rows = gx_store_rows_begin(directory, tell ? 5 : 3, column, stderr);
+  const size_t total = rows ? gx_store_rows_total(rows) : 0;
+  struct gx_table *part = NULL;
+  *tally = (struct tally){0};
+  for (size_t done = 0; done < total && (part = gx_store_rows_next(rows, PART)); done += PART) {
+    look_at(part, tell, quiet, tally);
+    gx_table_free(part);
+  }
+  gx_store_rows_end(rows);
+  return rows && (part || !total) ? 0 : -1;
+}
+
+/* What must not be missed of any case; which those are is read where there are some. Returns an exit code. */
+static int look_at_all(const char *directory, bool quiet)
+{
+  struct tally tally;
+  if (look_through(directory, false, quiet, &tally)) return GX_EXIT_FAILED;
+  if ((tally.failed || tally.above) && look_through(directory, true, quiet, &tally)) return GX_EXIT_FAILED;
+  if (tally.above > TOLD) fprintf(stderr, "warning: and %zu cases more\n", tally.above - TOLD);
+  return tally.failed ? GX_EXIT_FAILED : GX_EXIT_DONE;
 }
 
 static int print_sheet(const struct gx_options *options, const struct gx_study *study, const struct gx_table *table)
@@ -184,18 +231,20 @@ static int print_sheet(const struct gx_options *options, const struct gx_study *
   return GX_EXIT_DONE;
 }
 
-int gx_summary_print(const struct gx_options *options, const struct gx_study *study, const char *directory)
+static int print_brief(const struct gx_options *options, const struct gx_study *study, const char *directory)
 {
-  struct gx_table *table = read_brief(study, directory);
-  if (!table) return GX_EXIT_FAILED;
-  bool all = gx_options_value(options, "csv") || gx_options_value(options, "json");
-  int code = all ? print_all(options, directory) : print_sheet(options, study, table);
-  for (size_t r = 0; r < table->rows; r++) {
-    if (strcmp(text_at(table, r, "result.status"), gx_status_name(GX_FAILED)) != 0) continue;
-    fprintf(stderr, "gridcross run: case %s failed: %s\n", text_at(table, r, "case"), text_at(table, r, "result.reason"));
-    code = GX_EXIT_FAILED;
-  }
-  if (!gx_options_value(options, "quiet")) warn_unstable(table);
+  size_t total;
+  struct gx_table *table = read_brief(study, directory, &total);
+  int code = table ? print_sheet(options, study, table) : GX_EXIT_FAILED;
+  if (!code && total > table->rows) printf("and %zu cases more, in %s/table.csv\n", total - table->rows, directory);
   gx_table_free(table);
   return code;
+}
+
+int gx_summary_print(const struct gx_options *options, const struct gx_study *study, const char *directory)
+{
+  const bool all = gx_options_value(options, "csv") || gx_options_value(options, "json");
+  const int code = all ? print_all(options, directory) : print_brief(options, study, directory);
+  const int worst = look_at_all(directory, gx_options_value(options, "quiet"));
+  return code ? code : worst;
 }

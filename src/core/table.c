@@ -37,6 +37,13 @@ void gx_table_free(struct gx_table *table)
   free(table);
 }
 
+void gx_table_clear(struct gx_table *table)
+{
+  for (size_t i = 0; i < table->text_count; i++) free(table->texts[i]);
+  table->text_count = 0;
+  memset(table->value, 0, table->columns * table->rows * sizeof *table->value);
+}
+
 int gx_table_column(struct gx_table *table, size_t column, const char *name, const char *unit, enum gx_type type)
 {
   struct gx_column *c = &table->column[column];

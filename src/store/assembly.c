@@ -125,14 +125,11 @@ static int write_part(struct gx_assembly *assembly)
              gx_table_set(timing, r, 2, gx_table_get(part, r, columns + 1)) || gx_table_set(timing, r, 3, assembly->repeats);
   if (failed && !assembly->failed) fail(assembly, NULL);
   gx_csv_write_rows(timing, 4, rows, assembly->text[GX_ASSEMBLY_TIMING]);
-  assembly->part = table_like(part, ROWS);
-  assembly->timing = timing_table(part);
-  gx_table_free(part);
-  gx_table_free(timing);
+  gx_table_clear(part);
+  gx_table_clear(timing);
   assembly->rows = 0;
   for (int f = GX_ASSEMBLY_TABLE; f <= GX_ASSEMBLY_TIMING && !failed; f++)
     if (ferror(assembly->text[f])) failed = fail(assembly, assembly->path[f]);
-  if (!failed && (!assembly->part || !assembly->timing)) failed = fail(assembly, NULL);
   return failed ? -1 : 0;
 }
 

@@ -178,18 +178,36 @@ static int unpack(const char *bytes, size_t length, struct gx_result *result)
   return -1;
 }
 
+/* Bytes from an offset, as many as there are up to a limit; less than 0: it cannot be read. */
+static ssize_t read_some(int file, uint64_t offset, void *to, size_t most)
+{
+  ssize_t got;
+  do got = pread(file, to, most, (off_t)offset);
+  while (got < 0 && errno == EINTR);
+  return got;
+}
+
+/* Most records have neither history nor spectra: one reading has all of them. */
 int gx_journal_scan_result(int file, uint64_t offset, struct gx_result *result)
 {
-  struct gx_journal_record record;
-  uint64_t size;
-  if (measure(file, &size) || read_at(file, offset, &record, sizeof record)) return -1;
-  if (record.own != gx_checksum(GX_CHECKSUM_START, &record, offsetof(struct gx_journal_record, own)) || record.length > size ||
-      record.length % 8)
+  struct {
+    struct gx_journal_record record;
+    struct gx_journal_body body;
+  } start;
+  ssize_t got = read_some(file, offset, &start, sizeof start);
+  if (got < (ssize_t)sizeof start.record) return -1;
+  const struct gx_journal_record record = start.record;
+  uint64_t size = (uint64_t)got - sizeof record;
+  char *bytes = (char *)&start.body, *longer = NULL;
+  if (record.own != gx_checksum(GX_CHECKSUM_START, &record, offsetof(struct gx_journal_record, own)) || record.length % 8)
     return -1;
-  char *bytes = malloc((size_t)record.length + 1);
-  int failed = !bytes || read_at(file, offset + sizeof record, bytes, (size_t)record.length) ||
+  if (record.length > size) {
+    if (measure(file, &size) || record.length > size || !(longer = malloc((size_t)record.length))) return -1;
+    bytes = longer;
+  }
+  int failed = (longer && read_at(file, offset + sizeof record, bytes, (size_t)record.length)) ||
                gx_checksum(GX_CHECKSUM_START, bytes, (size_t)record.length) != record.sum;
   if (!failed) failed = unpack(bytes, (size_t)record.length, result);
-  free(bytes);
+  free(longer);
   return failed ? -1 : 0;
 }

@@ -12,6 +12,7 @@
 #include <gridcross/recorder.h>
 
 #include "assembly.h"
+#include "hdf5_rows.h"
 
 /* Only what an interrupted run leaves: nothing, or partial files. */
 static int check_empty(const char *directory, FILE *errors)
@@ -65,10 +66,10 @@ int gx_store_prepare(const char *directory, FILE *errors)
   if (stat(study, &status)) {
     failed = check_empty(directory, errors);
   } else {
-    struct gx_table *old = gx_hdf5_read(study, errors);
+    struct gx_hdf5_rows *old = gx_hdf5_rows_begin(study, 0, NULL, errors);
     if (!old) fprintf(errors, "%s: will not be overwritten: remove it, or name another directory with -o\n", study);
     failed = old ? 0 : -1;
-    gx_table_free(old);
+    gx_hdf5_rows_end(old);
   }
   free(study);
   return failed;

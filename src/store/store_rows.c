@@ -13,6 +13,7 @@ struct gx_store_rows {
   char *study, *timing_path; /* owned */
   size_t columns;
   const char *const *column; /* borrowed */
+  bool timed;                /* the timing is wanted */
   FILE *errors;
   struct gx_hdf5_rows *rows; /* NULL: paused */
   size_t total, next;        /* rows */
@@ -32,6 +33,13 @@ static bool has_ours(const struct gx_table *table)
   return false;
 }
 
+static bool wants_timing(size_t columns, const char *const *column)
+{
+  for (size_t c = 0; column && c < columns; c++)
+    if (!strcmp(column[c], "result.seconds") || !strcmp(column[c], "result.ns_per_particle_step")) return true;
+  return !column;
+}
+
 static int open_again(struct gx_store_rows *rows)
 {
   if (rows->rows) return 0;
@@ -39,7 +47,7 @@ static int open_again(struct gx_store_rows *rows)
   if (!rows->rows) return -1;
   rows->total = gx_hdf5_rows_total(rows->rows);
   gx_hdf5_rows_seek(rows->rows, rows->next);
-  rows->timing = fopen(rows->timing_path, "rb");
+  rows->timing = rows->timed ? fopen(rows->timing_path, "rb") : NULL;
   if (rows->timing && rows->timing_at && fseek(rows->timing, rows->timing_at, SEEK_SET)) rows->timing_at = 0;
   return 0;
 }
@@ -60,7 +68,12 @@ struct gx_store_rows *gx_store_rows_begin(const char *directory, size_t columns,
   char *timing = gx_assembly_path(directory, "", gx_assembly_name[GX_ASSEMBLY_TIMING], "");
   char *study = gx_assembly_path(directory, "", gx_assembly_name[GX_ASSEMBLY_STUDY], "");
   if (rows && timing && study) {
-    *rows = (struct gx_store_rows){.study = study, .timing_path = timing, .columns = columns, .column = column, .errors = errors};
+    *rows = (struct gx_store_rows){.study = study,
+                                   .timing_path = timing,
+                                   .columns = columns,
+                                   .column = column,
+                                   .timed = wants_timing(columns, column),
+                                   .errors = errors};
     if (!open_again(rows)) return rows;
     gx_store_rows_end(rows);
     return NULL;
@@ -111,11 +124,11 @@ static int add_timing(struct gx_store_rows *rows, struct gx_table *table)
 
 struct gx_table *gx_store_rows_next(struct gx_store_rows *rows, size_t most)
 {
-  struct gx_table *table = open_again(rows) ? NULL : gx_hdf5_rows_next(rows->rows, most, 2);
+  struct gx_table *table = open_again(rows) ? NULL : gx_hdf5_rows_next(rows->rows, most, rows->timed ? 2 : 0);
   if (!table) return NULL;
   rows->next += table->rows;
   const bool damaged = has_ours(table); /* the last two have no names yet */
-  if (!damaged && !add_timing(rows, table)) return table;
+  if (!damaged && (!rows->timed || !add_timing(rows, table))) return table;
   if (damaged)
     fprintf(rows->errors, "%s: its table is damaged\n", rows->study);
   else

@@ -249,9 +249,10 @@ static enum gx_status take_sample(struct run *run, double step)
   bool reused = gx_stepper_starts_accelerated(run->stepper); /* by the next step: not a cost of measuring */
   bool timed = is_timed(run->samples), first = run->samples++ < FIRST_SAMPLES;
   if (reused) GX_TRY(gx_stepper_accelerate(run->stepper, run->time));
-  double reading = timed ? seconds_now(run) : 0, before = timed ? seconds_now(run) : 0;
+  double reading = timed && !first ? seconds_now(run) : 0, before = timed ? seconds_now(run) : 0;
   GX_TRY(gx_measure_take(run->measure, run->stepper, run->time, simulation->dt));
-  if (timed) *(first ? &run->observing : &run->timed_seconds) += seconds_now(run) - before - (before - reading);
+  if (timed && first) run->observing += seconds_now(run) - before;
+  if (timed && !first) run->timed_seconds += seconds_now(run) - before - (before - reading);
   run->timed += timed && !first;
   GX_TRY(refuse_nonsense(run));
   struct gx_history *history = &run->result->history;

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../core/large.h"
+
 enum { MOST_CASES = 1000000 };
 
 /* Parameters that advance together: one list, or a zip. */
@@ -32,9 +34,8 @@ struct expansion {
     double real;
     char text[32];
   } printed[GX_PARAMETERS]; /* reals as last hashed: printing them would be most of the work */
-  uint64_t *hash;           /* [room] of each case */
-  size_t room;
-  size_t *slot; /* [slots] hash table of case indices + 1 */
+  uint64_t *hash;           /* of each case */
+  size_t *slot;             /* [slots] hash table of case indices + 1 */
   size_t slots;
 };
 
@@ -169,42 +170,26 @@ static bool same_case(const struct gx_value *a, const struct gx_value *b)
   return true;
 }
 
-static bool grow(struct expansion *expansion)
+/* At once: moving a study that grows costs more than expanding it. */
+static bool make_room(struct expansion *expansion, size_t cases)
 {
-  struct gx_study *study = expansion->study;
-  size_t room = expansion->room ? 2 * expansion->room : 64, slots = 4 * room;
-  struct gx_case *cases = realloc(study->cases, room * sizeof *cases);
-  if (cases) study->cases = cases;
-  uint64_t *hash = realloc(expansion->hash, room * sizeof *hash);
-  if (hash) expansion->hash = hash;
-  size_t *slot = calloc(slots, sizeof *slot);
-  if (!cases || !hash || !slot) {
-    free(slot);
-    return false;
-  }
-  for (size_t i = 0; i < study->count; i++) {
-    size_t s = (size_t)hash[i] & (slots - 1);
-    while (slot[s]) s = (s + 1) & (slots - 1);
-    slot[s] = i + 1;
-  }
-  free(expansion->slot);
-  expansion->slot = slot;
-  expansion->slots = slots;
-  expansion->room = room;
-  return true;
+  for (expansion->slots = 64; expansion->slots < 2 * cases;) expansion->slots *= 2;
+  expansion->study->cases = gx_large_zeros((cases + 1) * sizeof *expansion->study->cases);
+  expansion->hash = gx_large_zeros((cases + 1) * sizeof *expansion->hash);
+  expansion->slot = gx_large_zeros(expansion->slots * sizeof *expansion->slot);
+  return expansion->study->cases && expansion->hash && expansion->slot;
 }
 
-static bool keep(struct expansion *expansion, const struct gx_value *value)
+static void keep(struct expansion *expansion, const struct gx_value *value)
 {
   struct gx_study *study = expansion->study;
-  if (study->count == expansion->room && !grow(expansion)) return false;
   uint64_t hash = hash_case(expansion, value);
   size_t s = (size_t)hash & (expansion->slots - 1);
   for (; expansion->slot[s]; s = (s + 1) & (expansion->slots - 1)) {
     size_t i = expansion->slot[s] - 1;
     if (expansion->hash[i] == hash && same_case(study->cases[i].value, value)) {
       study->duplicates++;
-      return true;
+      return;
     }
   }
   struct gx_case *one = &study->cases[study->count];
@@ -213,11 +198,10 @@ static bool keep(struct expansion *expansion, const struct gx_value *value)
   one->points = NULL;
   expansion->hash[study->count] = hash;
   expansion->slot[s] = ++study->count;
-  return true;
 }
 
 /* Resolves and keeps the case that the wheels stand at. */
-static bool take_case(struct expansion *expansion, const struct combination *combination)
+static void take_case(struct expansion *expansion, const struct combination *combination)
 {
   struct gx_value value[GX_PARAMETERS] = {{.type = GX_NULL}};
   for (int id = 0; id < GX_PARAMETERS; id++)
@@ -241,7 +225,7 @@ static bool take_case(struct expansion *expansion, const struct combination *com
     fits = false;
     if (id == GX_PROBLEM_DIMENSION) break; /* which others are judged by */
   }
-  return !fits || keep(expansion, value);
+  if (fits) keep(expansion, value);
 }
 
 static void find_axes(const struct gx_settings *settings, struct gx_study *study)
@@ -273,7 +257,8 @@ static bool check_problem(struct gx_settings *settings)
   return complete;
 }
 
-static bool check_count(struct gx_settings *settings, const struct gx_layer *layers)
+/* How many cases there can be; 0: too many, after a message. */
+static size_t count_cases(struct gx_settings *settings, const struct gx_layer *layers)
 {
   double cases = 0;
   struct gx_place place = {.line = 1, .column = 1};
@@ -287,7 +272,7 @@ static bool check_count(struct gx_settings *settings, const struct gx_layer *lay
   }
   if (cases > MOST_CASES)
     gx_errors_add(settings->errors, place, "the lists multiply to %.15g cases; at most %d are allowed", cases, MOST_CASES);
-  return cases <= MOST_CASES;
+  return cases <= MOST_CASES ? (size_t)cases : 0;
 }
 
 void gx_expansion_run(struct gx_settings *settings)
@@ -295,13 +280,15 @@ void gx_expansion_run(struct gx_settings *settings)
   struct expansion expansion = {.settings = settings, .study = settings->study};
   struct gx_errors *errors = settings->errors;
   const struct gx_layer nothing = {.first = NULL}, *layers = settings->cases ? settings->cases : &nothing;
-  if (!check_problem(settings) || settings->uncertain || gx_errors_full(errors) || !check_count(settings, layers)) return;
+  if (!check_problem(settings) || settings->uncertain || gx_errors_full(errors)) return;
+  const size_t most = count_cases(settings, layers);
+  if (!most) return;
+  if (!make_room(&expansion, most)) errors->out_of_memory = true;
   for (int id = 0; id < GX_PARAMETERS; id++) expansion.standard[id] = gx_parameter_default((enum gx_parameter_id)id);
   for (const struct gx_layer *layer = layers; layer && !errors->out_of_memory; layer = layer->next) {
     struct combination combination;
     combine(settings, layer, &combination);
-    do
-      if (!take_case(&expansion, &combination)) errors->out_of_memory = true;
+    do take_case(&expansion, &combination);
     while (!errors->out_of_memory && turn(&combination));
   }
   free(expansion.hash);
