@@ -357,6 +357,7 @@ static void settle(struct gx_space *space)
   if (mesh->lattice) catch_up((struct moving_mesh *)space);
   if (each_step) return;
   gather(space, mesh->v, space->particles->v, NULL);
+  if (!mesh->reconstruction) return;
   double momentum[GX_MAX_DIM];
   gx_mesh_momentum_of(mesh, mesh->v, momentum);
   gx_mesh_momentum_keep(mesh, momentum, space->particles->v);

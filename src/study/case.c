@@ -35,12 +35,13 @@ struct run {
   struct gx_spectrum *spectrum;
   struct gx_restitution *restitution; /* NULL: there are no two bodies */
   struct gx_frequency frequency;
-  const char *accumulate; /* time.accumulate */
-  double time, lost;      /* s; lost: what compensated summation carries */
-  double kinetic_limit;   /* J */
-  double samples, timed;  /* taken; of those after the first few, whose cost was read from the clock */
-  double timed_seconds;   /* of processor time */
-  double observing;       /* s of it for the first few samples, jumps, spectra, frequency, budgets and snapshots */
+  bool summed, compensated; /* time.accumulate; neither: product */
+  double time, lost;        /* s; lost: what compensated summation carries */
+  double kinetic_limit;     /* J */
+  double samples, timed;    /* taken; of those after the first few, whose cost was read from the clock */
+  double timed_seconds;     /* that these took */
+  double least_seconds;     /* that one of them took */
+  double observing;         /* s of it for the first few samples, jumps, spectra, frequency, budgets and snapshots */
 };
 
 static bool is_cancelled(const struct gx_case_means *means)
@@ -135,7 +136,8 @@ static enum gx_status prepare(struct run *run, const struct gx_case *one, double
   run->spectra_every = (double)one->value[GX_OUTPUT_SPECTRA].integer;
   run->frequency_every = (double)one->value[GX_OUTPUT_FREQUENCY].integer;
   run->budget_every = one->value[GX_OUTPUT_BUDGET].type == GX_INTEGER ? (double)one->value[GX_OUTPUT_BUDGET].integer : 0;
-  run->accumulate = one->value[GX_TIME_ACCUMULATE].text;
+  run->summed = !strcmp(one->value[GX_TIME_ACCUMULATE].text, "sum");
+  run->compensated = !strcmp(one->value[GX_TIME_ACCUMULATE].text, "compensated");
   const int *cells = simulation->space->through_cells ? simulation->space_options.cells : NULL;
   run->measure = gx_measure_create(simulation->space, simulation->clock, cells, run->level);
   if (!run->measure) return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the measures");
@@ -169,13 +171,33 @@ static enum gx_status prepare(struct run *run, const struct gx_case *one, double
   return GX_OK;
 }
 
-enum { FIRST_SAMPLES = 16, BETWEEN_TIMED = 64 };
+enum { FIRST_SAMPLES = 16 };
 
-/* Reading the clock costs as much as a step of a thousand particles: after the first samples, which also pay for memory that is touched
- * for the first time, it is read at some only. */
+/* After the first samples, which also pay for memory that is touched for the first time, the clock is read at some only. */
 static bool is_timed(double samples)
 {
-  return samples < FIRST_SAMPLES || fmod(samples, BETWEEN_TIMED) == 0;
+  return samples < FIRST_SAMPLES || fmod(samples, FIRST_SAMPLES) == 0;
+}
+
+/* A system may take longer to say how much processor time was used than a sample takes, and slows down what comes after. Samples are
+ * timed by the clock on the wall unless threads share their work. */
+static double sample_clock(const struct run *run, bool first)
+{
+  struct timespec now;
+  if (first || run->means.team) return seconds_now(run);
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* One that took several times the least has been interrupted; one that took no time, between the two readings before it. */
+static void count_sample(struct run *run, bool first, double seconds)
+{
+  if (first) run->observing += seconds;
+  if (first || !(seconds > 0)) return;
+  if (run->timed == 0 || seconds < run->least_seconds) run->least_seconds = seconds;
+  if (seconds > 4 * run->least_seconds) return;
+  run->timed_seconds += seconds;
+  run->timed++;
 }
 
 static double measuring_seconds(const struct run *run)
@@ -249,11 +271,9 @@ static enum gx_status take_sample(struct run *run, double step)
   bool reused = gx_stepper_starts_accelerated(run->stepper); /* by the next step: not a cost of measuring */
   bool timed = is_timed(run->samples), first = run->samples++ < FIRST_SAMPLES;
   if (reused) GX_TRY(gx_stepper_accelerate(run->stepper, run->time));
-  double reading = timed && !first ? seconds_now(run) : 0, before = timed ? seconds_now(run) : 0;
+  double reading = timed && !first ? sample_clock(run, false) : 0, before = timed ? sample_clock(run, first) : 0;
   GX_TRY(gx_measure_take(run->measure, run->stepper, run->time, simulation->dt));
-  if (timed && first) run->observing += seconds_now(run) - before;
-  if (timed && !first) run->timed_seconds += seconds_now(run) - before - (before - reading);
-  run->timed += timed && !first;
+  if (timed) count_sample(run, first, sample_clock(run, first) - before - (first ? 0 : before - reading));
   GX_TRY(refuse_nonsense(run));
   struct gx_history *history = &run->result->history;
   if (kept && history->probe) history->probe[history->samples] = *gx_measure_probe(run->measure);
@@ -274,9 +294,9 @@ static void sample_frequency(struct run *run, double step)
 static void advance_time(struct run *run, double step)
 {
   double dt = run->simulation.dt;
-  if (!strcmp(run->accumulate, "sum")) {
+  if (run->summed) {
     run->time += dt;
-  } else if (!strcmp(run->accumulate, "compensated")) {
+  } else if (run->compensated) {
     double correction = dt - run->lost, sum = run->time + correction;
     run->lost = (sum - run->time) - correction;
     run->time = sum;
