@@ -76,9 +76,11 @@ void gx_stepper_free(struct gx_stepper *stepper);
 enum gx_status gx_stepper_step(struct gx_stepper *stepper, double t, double dt);
 /* Acceleration at the current state and time t without advancing; the next step from t reuses it, unless it strains or drifts
  * first. A step whose last acceleration belongs to its end leaves that for the next one, taken at t plus its drifts: the next t
- * may differ from that by round-off. To continue a run bit for bit, restore the arrays of the space's state and accelerate at
- * that time. */
+ * may differ from that by round-off. */
 enum gx_status gx_stepper_accelerate(struct gx_stepper *stepper, double t);
+/* Of the space and its particles, and of what the next step may reuse: between steps, to continue a run bit for bit. Loading makes
+ * weights, nodal fields and acceleration anew at the time at which they were made before, and can fail as they can. */
+enum gx_status gx_stepper_image(struct gx_stepper *stepper, struct gx_image *image);
 /* Whether a step starts with the acceleration at its start, and so reuses one that was asked for there. */
 bool gx_stepper_starts_accelerated(const struct gx_stepper *stepper);
 

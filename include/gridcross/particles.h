@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include <gridcross/image.h>
 #include <gridcross/status.h>
 
 enum { GX_MAX_DIM = 3, GX_MAX_TENSOR = 9 };
@@ -59,6 +60,8 @@ struct gx_particles *gx_particles_list(const struct gx_points *points, double de
 /* A copy with its own memory; NULL when that runs out. */
 struct gx_particles *gx_particles_copy(const struct gx_particles *particles);
 void gx_particles_free(struct gx_particles *particles);
+/* Of what a run changes: u, v, b, F and P. */
+void gx_particles_image(struct gx_particles *particles, struct gx_image *image);
 
 /* det F of one particle */
 double gx_particles_jacobian(const struct gx_particles *particles, size_t p);

@@ -87,9 +87,11 @@ struct gx_space_kind {
   /* GX_WEIGHTS_FROZEN ... GX_CLOSE; span: coefficient * dt. */
   enum gx_status (*twofold)(struct gx_space *space, enum gx_primitive primitive, double span);
   /* Runge–Kutta view: the state, and its time derivatives after W, P, A. What APIC keeps of the last kick is not in it, having no
-   * rate; a restart would need that too. rate: [state.count] arrays. */
+   * rate. rate: [state.count] arrays. */
   void (*state)(struct gx_space *space, struct gx_state *state);
   void (*rates)(struct gx_space *space, double *const *rate);
+  /* Of what it keeps over steps besides particles, without what weights, projection and acceleration make anew; NULL: nothing. */
+  void (*image)(struct gx_space *space, struct gx_image *image);
   /* Kinetic energy of the carrier of velocity: nodes with their row-sum mass, J. */
   double (*kinetic)(const struct gx_space *space);
   /* Potential energy, J; NULL: strain energy sum V0 W(F) where the material has one. */
@@ -124,5 +126,7 @@ struct gx_space {
 
 extern const struct gx_space_kind *const gx_space_family[];
 const struct gx_space_kind *gx_space_find(const char *name);
+/* Of a space and its particles. Loaded, it has no weights yet: see gx_stepper_image. */
+void gx_space_image(struct gx_space *space, struct gx_image *image);
 
 #endif

@@ -16,6 +16,7 @@ struct gx_stepper {
   struct gx_space *space;
   struct gx_work_observer observer;
   bool fresh[GX_ACCELERATE + 1];             /* W, P, A hold for the current state and need not be repeated */
+  double accelerated;                        /* s, the time of the last A */
   const struct gx_row *rows;                 /* NULL: a tableau */
   struct gx_row expanded[MOST_ROWS];         /* what a splitting means */
   struct gx_state state;                     /* tableau: what is combined */
@@ -106,7 +107,10 @@ static enum gx_status ensure(struct gx_stepper *stepper, enum gx_primitive primi
   if (stepper->fresh[primitive]) return GX_OK;
   if (primitive == GX_WEIGHTS) GX_TRY(kind->weights(space));
   if (primitive == GX_PROJECT) GX_TRY(kind->project(space));
-  if (primitive == GX_ACCELERATE) GX_TRY(kind->accelerate(space, t));
+  if (primitive == GX_ACCELERATE) {
+    GX_TRY(kind->accelerate(space, t));
+    stepper->accelerated = t;
+  }
   stepper->fresh[primitive] = true;
   return GX_OK;
 }
@@ -119,6 +123,24 @@ static void expire(struct gx_stepper *stepper, enum gx_primitive first, enum gx_
 enum gx_status gx_stepper_accelerate(struct gx_stepper *stepper, double t)
 {
   for (enum gx_primitive p = GX_WEIGHTS; p <= GX_ACCELERATE; p++) GX_TRY(ensure(stepper, p, t));
+  return GX_OK;
+}
+
+/* P may have been outdated by a kick since; A then stands on the mass and the weights that are the same as now. */
+enum gx_status gx_stepper_image(struct gx_stepper *stepper, struct gx_image *image)
+{
+  bool fresh[GX_ACCELERATE + 1];
+  memcpy(fresh, stepper->fresh, sizeof fresh);
+  GX_IMAGE(image, fresh);
+  GX_IMAGE(image, stepper->accelerated);
+  gx_space_image(stepper->space, image);
+  if (!image->loading || image->failed) return GX_OK;
+  expire(stepper, GX_WEIGHTS, GX_ACCELERATE);
+  if (fresh[GX_ACCELERATE])
+    GX_TRY(gx_stepper_accelerate(stepper, stepper->accelerated));
+  else if (fresh[GX_WEIGHTS])
+    GX_TRY(ensure(stepper, GX_WEIGHTS, stepper->accelerated));
+  memcpy(stepper->fresh, fresh, sizeof fresh);
   return GX_OK;
 }
 

@@ -186,6 +186,16 @@ void gx_particles_free(struct gx_particles *particles)
   free(particles);
 }
 
+void gx_particles_image(struct gx_particles *particles, struct gx_image *image)
+{
+  const int dim = particles->dim;
+  gx_image_reals(image, dim, particles->u, particles->n);
+  gx_image_reals(image, dim, particles->v, particles->n);
+  gx_image_reals(image, dim, particles->b, particles->n);
+  gx_image_reals(image, dim * dim, particles->F, particles->n);
+  gx_image_reals(image, dim * dim, particles->P, particles->n);
+}
+
 double gx_particles_jacobian(const struct gx_particles *particles, size_t p)
 {
   double F[GX_MAX_TENSOR], cofactor[GX_MAX_TENSOR], J;

@@ -186,6 +186,11 @@ void gx_affine_gather(struct gx_mesh *mesh)
   take(mesh, mesh->v, mesh->affine->state);
 }
 
+void gx_affine_image(struct gx_mesh *mesh, struct gx_image *image)
+{
+  gx_image_reals(image, mesh->grid.dim * mesh->grid.dim, mesh->affine->state, mesh->space.particles->n);
+}
+
 /* The part of g - x that nodes have moved by, u_i - sum w u: momentum_i += sum_p w m C (u_i - shift). C in T. */
 static void scatter_moved(struct gx_mesh *mesh, double *const *momentum)
 {

@@ -25,6 +25,8 @@ void gx_affine_weigh(struct gx_mesh *mesh, const double *const *x);
 void gx_affine_scatter(struct gx_mesh *mesh, double *const *momentum);
 /* What the particles keep, from the nodal velocity. */
 void gx_affine_gather(struct gx_mesh *mesh);
+/* Of what the particles keep. */
+void gx_affine_image(struct gx_mesh *mesh, struct gx_image *image);
 /* gx_space_kind.spin */
 void gx_affine_spin(struct gx_space *space, double ahead, double *spin);
 

@@ -401,6 +401,14 @@ void gx_mesh_particle_acceleration(struct gx_space *space, double *const *a)
   gx_mesh_gather(mesh, mesh->a, a, NULL);
 }
 
+void gx_mesh_image(struct gx_space *space, struct gx_image *image)
+{
+  struct gx_mesh *mesh = (struct gx_mesh *)space;
+  if (!space->kind->fixed_grid) gx_image_reals(image, mesh->grid.dim, mesh->u, mesh->grid.stored);
+  if (!mesh->options.each_step) gx_image_reals(image, mesh->grid.dim, mesh->v, mesh->grid.stored);
+  if (mesh->affine) gx_affine_image(mesh, image);
+}
+
 void gx_mesh_append(struct gx_state *state, int count, double *const *array, size_t length)
 {
   for (int i = 0; i < count; i++, state->count++) {

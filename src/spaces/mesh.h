@@ -78,6 +78,8 @@ void gx_mesh_gather(struct gx_mesh *mesh, double *const *field, double *const *v
 /* field[d] <- M^-1 field[d] with ends held, for every component. */
 enum gx_status gx_mesh_solve(struct gx_mesh *mesh, double *const *field);
 double gx_mesh_kinetic(const struct gx_space *space);
+/* gx_space_kind.image */
+void gx_mesh_image(struct gx_space *space, struct gx_image *image);
 /* Adds component arrays to the list of what a space advances. */
 void gx_mesh_append(struct gx_state *state, int count, double *const *array, size_t length);
 void gx_mesh_particle_acceleration(struct gx_space *space, double *const *a);

@@ -439,6 +439,12 @@ static void rates(struct gx_space *space, double *const *rate)
   if (mesh->options.stress_rate) rate_of_stress(mesh, 0, rate);
 }
 
+static void image(struct gx_space *space, struct gx_image *image)
+{
+  GX_IMAGE(image, ((struct moving_mesh *)space)->accelerated);
+  gx_mesh_image(space, image);
+}
+
 const struct gx_space_kind gx_moving_mesh = {
     .name = "moving-mesh",
     .help = "total Lagrangian MPM: gradients in the reference configuration, first Piola-Kirchhoff stress",
@@ -452,6 +458,7 @@ const struct gx_space_kind gx_moving_mesh = {
     .twofold = twofold,
     .state = state,
     .rates = rates,
+    .image = image,
     .kinetic = gx_mesh_kinetic,
     .settle = settle,
     .power = power,

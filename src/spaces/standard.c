@@ -301,6 +301,7 @@ const struct gx_space_kind gx_standard = {
     .twofold = twofold,
     .state = state,
     .rates = rates,
+    .image = gx_mesh_image,
     .kinetic = gx_mesh_kinetic,
     .spin = gx_affine_spin,
     .particle_acceleration = gx_mesh_particle_acceleration,

@@ -98,6 +98,11 @@ static void rates(struct gx_space *space, double *const *rate)
   rate[1][0] = carrier->a;
 }
 
+static void image(struct gx_space *space, struct gx_image *image)
+{
+  GX_IMAGE(image, ((struct carrier *)space)->external);
+}
+
 static double velocity(const struct gx_space *space)
 {
   return gx_jump_model_velocity(position(space)) + ((const struct carrier *)space)->external;
@@ -140,6 +145,7 @@ const struct gx_space_kind gx_velocity_field = {
     .twofold = twofold,
     .state = state,
     .rates = rates,
+    .image = image,
     .kinetic = kinetic,
     .settle = settle,
     .particle_acceleration = particle_acceleration,

@@ -10,7 +10,7 @@ LAYERS = [["core"], ["bases", "materials", "problems"], ["spaces"], ["clocks"], 
 RANK = {folder: rank for rank, folders in enumerate(LAYERS) for folder in folders}
 # The folder that implements each public header.
 HOME = {
-    "status": "core", "particles": "core", "grid": "core", "value": "core", "table": "core", "page": "core", "build": "core",
+    "status": "core", "particles": "core", "grid": "core", "value": "core", "table": "core", "page": "core", "image": "core", "build": "core",
     "basis": "bases", "material": "materials", "problem": "problems", "space": "spaces", "clock": "clocks",
     "measure": "measures", "snapshot": "measures", "spectrum": "measures", "frequency": "measures", "budget": "measures", "paper": "papers", "parameter": "study", "simulation": "study", "study": "study", "store": "store", "recorder": "store", "series": "store", "advise": "view", "balance": "view", "compare": "view", "plot": "view", "report": "view", "starter": "view", "spectra": "view",
 }
