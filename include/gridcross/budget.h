@@ -82,6 +82,8 @@ void gx_budget_jumps(struct gx_budget *budget);
 enum gx_status gx_budget_take(struct gx_budget *budget, double t, double dt, struct gx_budget_values *values);
 /* Over the steps taken so far: root mean squares, of inf.* the largest. */
 struct gx_budget_values gx_budget_mean(const struct gx_budget *budget);
+/* Of the steps taken so far. */
+void gx_budget_image(struct gx_budget *budget, struct gx_image *image);
 /* The largest term of velocity (GX_BUDGET_VELOCITY_STEP) or displacement (GX_BUDGET_DISPLACEMENT_STEP), GX_BUDGET_ENTRIES when there
  * is none; next: the one after it. */
 enum gx_budget_entry gx_budget_dominant(const struct gx_budget_values *values, enum gx_budget_entry of,

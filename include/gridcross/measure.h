@@ -80,6 +80,8 @@ void gx_measure_error(const struct gx_measure *measure, enum gx_quantity quantit
 /* Norms of the difference between the last samples of two measures of the same particles, likewise. */
 void gx_measure_difference(const struct gx_measure *measure, const struct gx_measure *other,
                            double error[GX_QUANTITIES][GX_NORMS]);
+/* Of everything measured so far, between samples. */
+void gx_measure_image(struct gx_measure *measure, struct gx_image *image);
 /* What was measured so far. */
 const struct gx_measured *gx_measure_result(const struct gx_measure *measure);
 

@@ -59,6 +59,7 @@ int gx_store_write(const char *directory, const struct gx_study *study, const st
 struct gx_store_how {
   bool resume;          /* goes on with what is there, which must be of the same study; if not, nothing may be under way there */
   size_t shard, shards; /* only cases k with k mod shards = shard - 1; shards 0: all */
+  bool quiet;           /* no notes of cases that go on from their checkpoints */
   bool joins; /* one more writer beside the one that opened the directory first: a journal of its own and nothing else */
 };
 
@@ -74,7 +75,7 @@ uint64_t gx_store_number(const struct gx_store *store);
 /* [study->count] cases that are not to be run: they have a result, or belong to another shard. */
 const bool *gx_store_skip(const struct gx_store *store);
 struct gx_sink gx_store_sink(struct gx_store *store);
-/* Keeps what output.snapshots asks for, as <gridcross/recorder.h> says. */
+/* Keeps what output.snapshots and output.checkpoint ask for, as <gridcross/recorder.h> says. */
 const struct gx_observer *gx_store_observer(const struct gx_store *store);
 /* Cases that have a result, and all that this run is about, without those of other shards. */
 void gx_store_count(struct gx_store *store, size_t *done, size_t *total);

@@ -96,16 +96,29 @@ struct gx_plan {
 
 /* Builds the case, so that it can fail for want of memory; once gx_status_quiet_gsl was called. */
 struct gx_plan gx_case_plan(const struct gx_case *one);
+/* A case in the middle of its steps, for those who keep it to go on with later. */
+struct gx_checkpoint {
+  double step; /* taken; when it is loaded: of no meaning */
+  void *run;
+  /* Names everything of the run that an equal case lacks at its start. */
+  void (*image)(void *run, struct gx_image *image);
+};
+
 /* Watches cases as they run. Called by any of the threads, by several at once for different cases. Where a call fails the case ends with
  * the status cancelled. */
 struct gx_observer {
   void *context;
-  /* A case that asks for snapshots begins. Returns what the other calls are given; NULL: it fails. */
+  /* A case that asks for snapshots or checkpoints begins. Returns what the other calls are given; NULL: it fails. */
   void *(*begin)(void *context, const struct gx_case *one);
   /* The start, every n-th step as output.snapshots says, and the last. Returns 0, or other than 0 when it fails. */
   int (*show)(void *watched, const struct gx_snapshot *snapshot);
   /* The case ends, before its result is told; whole: it has a result, whatever its status. Likewise. */
   int (*end)(void *watched, bool whole);
+  /* Of output.checkpoint, both or neither. Before the first step: loads what was kept, if there is anything. Returns 1 when it did, 0 when
+   * there is none, or less than 0 when that fails. */
+  int (*restore)(void *watched, const struct gx_checkpoint *checkpoint);
+  /* Every n-th step but the last, after it was shown. Returns 0, or other than 0 when it fails. */
+  int (*keep)(void *watched, const struct gx_checkpoint *checkpoint);
 };
 
 /* What a case runs with; all is borrowed, and NULL where there is none. */
@@ -113,7 +126,7 @@ struct gx_case_means {
   struct gx_team *team; /* its threads share out the particles of 2-D and 3-D cases; equal bits for any team */
   /* Looked at between steps: once true the case ends with the status cancelled, which is no result. */
   const atomic_bool *cancel;
-  const struct gx_observer *observer; /* of output.snapshots */
+  const struct gx_observer *observer; /* of output.snapshots and output.checkpoint */
 };
 
 /* Runs one case; never aborts, once gx_status_quiet_gsl was called (gx_study_run does). */
@@ -168,7 +181,7 @@ struct gx_study_means {
   const bool *skip;                   /* [count] cases that are not run, borrowed; NULL: none */
   const struct gx_source *source;     /* borrowed; NULL: all that are not skipped, longest first, or in order on one thread */
   atomic_bool *cancel;                /* set by anyone at any time to end early, borrowed; NULL: nobody does */
-  const struct gx_observer *observer; /* of output.snapshots, borrowed; NULL: nobody */
+  const struct gx_observer *observer; /* of output.snapshots and output.checkpoint, borrowed; NULL: nobody */
 };
 
 /* Runs every case, or those that the source gives. Equal bits for any number of threads. Keeps no result. Returns 0, or -1 when it was cancelled or the sink failed:

@@ -19,7 +19,7 @@ static const struct gx_option option[] = {
     {'o', "output", "DIR", "where the study goes; default: the run file's name with .study"},
     {'j', "jobs", "N", "threads: cases at once, longest first, and within long 2-D and 3-D cases; default: the processors"},
     {0, "repeats", "N", "time each case in N runs more without measures, and report the median; changes no result"},
-    {0, "resume", NULL, "go on with an interrupted run: only the cases that it has not done"},
+    {0, "resume", NULL, "go on with an interrupted run: only the cases that it has not done, and those from their checkpoints"},
     {0, "shard", "i/n", "only every n-th case from the i-th, 1 to n: a study in n parts, to be joined by gridcross merge"},
     {0, "csv", NULL, "print the whole table as CSV"},
     {0, "json", NULL, "print the whole table as JSON"},
@@ -264,6 +264,7 @@ static int run(const struct gx_options *options)
   int code = gx_ranks_begin(&run.ranks, gx_options_value(options, "shard"));
   if (code) return code;
   run.how.resume = gx_options_value(options, "resume");
+  run.how.quiet = run.quiet;
   code = gx_ranks_agree(run.ranks, prepare(&run, &directory, &study));
   run.directory = directory;
   run.study = study;

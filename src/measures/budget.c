@@ -440,6 +440,13 @@ struct gx_budget_values gx_budget_mean(const struct gx_budget *budget)
   return mean;
 }
 
+void gx_budget_image(struct gx_budget *budget, struct gx_image *image)
+{
+  GX_IMAGE(image, budget->taken);
+  GX_IMAGE(image, budget->mean);
+  gx_integral_image(budget->integral, image);
+}
+
 enum gx_budget_entry gx_budget_dominant(const struct gx_budget_values *values, enum gx_budget_entry of,
                                         enum gx_budget_entry *next)
 {

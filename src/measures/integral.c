@@ -115,17 +115,12 @@ static enum gx_status find_material(struct gx_integral *integral, const struct p
   return gx_status_set(integral->mesh->space.outcome, GX_FAILED, -1, "no material found at points of the grid at t = %.6g s", t);
 }
 
-/* On a grid that moves along nothing moves under the points. */
-enum gx_status gx_integral_place(struct gx_integral *integral, double t)
+/* All but X of the points, which are those of time t. */
+static enum gx_status settle(struct gx_integral *integral, double t)
 {
   struct gx_particles *points = integral->points;
   const struct gx_posed *like = integral->mesh->space.posed;
-  if (integral->posed && (!integral->moves || integral->time == t)) return GX_OK;
   if (integral->moves) memset(points->lattice, 0, sizeof points->lattice);
-  for (size_t from = 0; from < points->n && integral->moves; from += BLOCK) {
-    const struct part part = part_of(integral, from);
-    GX_TRY(find_material(integral, &part, t));
-  }
   gx_problem_free(integral->posed);
   integral->posed = gx_problem_pose(like->problem, &like->options, points->n, points->X);
   if (!integral->posed)
@@ -139,6 +134,27 @@ enum gx_status gx_integral_place(struct gx_integral *integral, double t)
   integral->time = t;
   GX_TRY(gx_mesh_weigh(integral->mesh, points->u, NULL));
   return gx_mesh_assemble(integral->mesh, NULL, NULL);
+}
+
+/* On a grid that moves along nothing moves under the points. */
+enum gx_status gx_integral_place(struct gx_integral *integral, double t)
+{
+  if (integral->posed && (!integral->moves || integral->time == t)) return GX_OK;
+  for (size_t from = 0; from < integral->points->n && integral->moves; from += BLOCK) {
+    const struct part part = part_of(integral, from);
+    GX_TRY(find_material(integral, &part, t));
+  }
+  return settle(integral, t);
+}
+
+void gx_integral_image(struct gx_integral *integral, struct gx_image *image)
+{
+  bool placed = integral->posed;
+  if (!integral->moves) return;
+  GX_IMAGE(image, placed);
+  GX_IMAGE(image, integral->time);
+  gx_image_reals(image, integral->points->dim, integral->points->X, integral->points->n);
+  if (image->loading && !image->failed && placed && settle(integral, integral->time) != GX_OK) image->failed = true;
 }
 
 enum gx_status gx_integral_project(struct gx_integral *integral, bool lumped, double *const *value, double *const *field)

@@ -21,6 +21,8 @@ enum gx_status gx_integral_create(struct gx_integral **integral, const struct gx
 void gx_integral_free(struct gx_integral *integral);
 /* Moves the material under the points to time t. */
 enum gx_status gx_integral_place(struct gx_integral *integral, double t);
+/* Of the material under the points, where the next search for it starts. */
+void gx_integral_image(struct gx_integral *integral, struct gx_image *image);
 /* field = M^-1 int rho value N dx, with consistent or lumped M; ends held as in the space. value: [dim][n]; field: [dim][stored]. */
 enum gx_status gx_integral_project(struct gx_integral *integral, bool lumped, double *const *value, double *const *field);
 /* sqrt(int |value|^2 dx) over the grid's coordinate. value: [dim][n]. */

@@ -37,6 +37,16 @@ void gx_jump_free(struct gx_jump *jump)
   free(jump);
 }
 
+void gx_jump_image(struct gx_jump *jump, struct gx_image *image)
+{
+  const struct gx_particles *particles = jump->space->particles;
+  gx_image_reals(image, particles->dim, jump->before, particles->n);
+  gx_image_reals(image, particles->dim, jump->sum, particles->n);
+  GX_IMAGE(image, jump->step);
+  GX_IMAGE(image, jump->last);
+  GX_IMAGE(image, jump->estimate);
+}
+
 /* The first edge along d between x and y, which lie in different cells; NaN: they do not. An edge belongs to the cell on its right. */
 static double edge_between(const struct gx_jump *jump, int d, double x, double y)
 {

@@ -18,6 +18,7 @@ struct gx_jump {
 /* The space's particles are where the first step will start; its kind must have a field. NULL when memory runs out. */
 struct gx_jump *gx_jump_create(const struct gx_space *space, const int *cells);
 void gx_jump_free(struct gx_jump *jump);
+void gx_jump_image(struct gx_jump *jump, struct gx_image *image);
 /* After a step of dt that moved particles once, by the field that the nodes still hold. */
 void gx_jump_step(struct gx_jump *jump, double dt);
 

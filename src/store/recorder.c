@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Files of snapshots: their names, and how they come and go. */
+/* Files of snapshots and checkpoints: their names, and how they come and go. The snapshots of a case that keeps checkpoints are logged
+ * while it is under way, and made into their files at its end. */
 #include <gridcross/recorder.h>
 
 #include <dirent.h>
@@ -9,12 +10,15 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "checkpoint.h"
 #include "openpmd.h"
+#include "snapshot_log.h"
 #include "xdmf.h"
 
-enum { XMF, GRID, H5, FILES, NAME = 64 };
+enum { XMF, GRID, H5, FILES, CHECKPOINT = FILES, LOG, ALL, NAME = 64 };
 
-static const char *const endings[FILES] = {[XMF] = ".xmf", [GRID] = "-grid.xmf", [H5] = ".h5"};
+static const char *const endings[ALL] = {
+    [XMF] = ".xmf", [GRID] = "-grid.xmf", [H5] = ".h5", [CHECKPOINT] = ".checkpoint", [LOG] = ".snapshots"};
 static const char *const partial = ".partial";
 
 struct gx_recorder {
@@ -22,6 +26,8 @@ struct gx_recorder {
   FILE *errors;
   pthread_mutex_t lock; /* HDF5 is not thread-safe */
   struct gx_observer observer;
+  const char *identity; /* of checkpoints; NULL: they are not kept */
+  bool resume, quiet;
 };
 
 /* A case under way. */
@@ -30,6 +36,10 @@ struct recording {
   char id[GX_ID_LENGTH];
   struct gx_openpmd *file; /* NULL: closed, or it could not be made */
   FILE *xdmf[GX_XDMF_KINDS];
+  struct gx_snapshot_log log; /* in their place; file -1: none */
+  char *checkpoint;           /* path, owned; NULL: none is asked for */
+  char *identity;             /* of it, owned */
+  bool found;                 /* it is there */
   bool failed;
 };
 
@@ -103,6 +113,67 @@ static int close_files(struct recording *recording)
   return recording->failed ? -1 : 0;
 }
 
+/* DIRECTORY/.case-<id>.checkpoint, which has no partial about it; owned by the caller */
+static char *checkpoint_path(const char *directory, const char *id)
+{
+  char *path = path_of(directory, id, CHECKPOINT, true);
+  if (path) path[strlen(path) - strlen(partial)] = '\0';
+  return path;
+}
+
+static void open_log(struct recording *recording, const struct gx_checkpoint_mark *mark, const char **reason)
+{
+  const struct gx_recorder *recorder = recording->recorder;
+  char *path = path_of(recorder->directory, recording->id, LOG, true);
+  if (path && !*reason && gx_snapshot_log_open(&recording->log, path, mark->log, mark->log_sum))
+    *reason = "has lost its snapshots";
+  errno = path && *reason ? gx_snapshot_log_open(&recording->log, path, 0, 0) : 0;
+  if (recording->log.file < 0) {
+    say(recorder->errors, path);
+    recording->failed = true;
+  }
+  free(path);
+}
+
+/* What a checkpoint of a case is told by, owned by the caller. */
+static char *identity_of(const struct gx_recorder *recorder, const char *id)
+{
+  const size_t room = strlen(recorder->identity) + strlen(id) + 8;
+  char *identity = malloc(room);
+  if (identity) snprintf(identity, room, "%scase\t%s\n", recorder->identity, id);
+  return identity;
+}
+
+/* Looks for a checkpoint to go on with. */
+static void begin_checkpoint(struct recording *recording, bool shows)
+{
+  const struct gx_recorder *recorder = recording->recorder;
+  struct gx_checkpoint_mark mark = {0};
+  recording->checkpoint = checkpoint_path(recorder->directory, recording->id);
+  recording->identity = identity_of(recorder, recording->id);
+  if (!recording->checkpoint || !recording->identity) {
+    say(recorder->errors, NULL);
+    recording->failed = true;
+    return;
+  }
+  const char *reason = recorder->resume ? gx_checkpoint_look(recording->checkpoint, recording->identity, &mark) : "";
+  if (shows) open_log(recording, &mark, &reason);
+  recording->found = !reason;
+  if (recorder->quiet || (reason && !*reason)) return;
+  if (reason)
+    fprintf(recorder->errors, "note: %s: %s: the case begins anew\n", recording->checkpoint, reason);
+  else
+    fprintf(recorder->errors, "note: case %s goes on from step %.0f\n", recording->id, mark.step);
+}
+
+static void release(struct recording *recording)
+{
+  gx_snapshot_log_close(&recording->log);
+  free(recording->checkpoint);
+  free(recording->identity);
+  free(recording);
+}
+
 static void *begin(void *context, const struct gx_case *one)
 {
   struct recording *recording = calloc(1, sizeof *recording);
@@ -111,17 +182,43 @@ static void *begin(void *context, const struct gx_case *one)
     say(recorder->errors, NULL);
     return NULL;
   }
-  recording->recorder = recorder;
+  *recording = (struct recording){.recorder = recorder, .log.file = -1};
   memcpy(recording->id, one->id, sizeof recording->id);
-  begin_files(recording);
+  if (recorder->identity && one->value[GX_OUTPUT_CHECKPOINT].type == GX_INTEGER)
+    begin_checkpoint(recording, one->value[GX_OUTPUT_SNAPSHOTS].type == GX_INTEGER);
+  else
+    begin_files(recording);
   if (!recording->failed) return recording;
   close_files(recording);
   remove_files(recording);
-  free(recording);
+  release(recording);
   return NULL;
 }
 
-static int show(void *watched, const struct gx_snapshot *snapshot)
+static int restore(void *watched, const struct gx_checkpoint *checkpoint)
+{
+  const struct recording *recording = watched;
+  if (!recording->found) return 0;
+  if (!gx_checkpoint_load(recording->checkpoint, checkpoint)) return 1;
+  fprintf(recording->recorder->errors, "%s: does not fit its case: remove it to begin the case anew\n", recording->checkpoint);
+  return -1;
+}
+
+static int keep(void *watched, const struct gx_checkpoint *checkpoint)
+{
+  struct recording *recording = watched;
+  const struct gx_recorder *recorder = recording->recorder;
+  const struct gx_checkpoint_mark mark = {checkpoint->step, recording->log.length, recording->log.sum};
+  char *hidden = path_of(recorder->directory, recording->id, CHECKPOINT, true);
+  int failed = hidden ? 0 : ENOMEM;
+  if (!failed && recording->log.file >= 0) failed = gx_snapshot_log_flush(&recording->log);
+  if (!failed) failed = gx_checkpoint_write(recording->checkpoint, hidden, recording->identity, &mark, checkpoint);
+  free(hidden);
+  errno = failed;
+  return failed ? say(recorder->errors, recording->checkpoint) : 0;
+}
+
+static int put_files(void *watched, const struct gx_snapshot *snapshot)
 {
   struct recording *recording = watched;
   struct gx_recorder *recorder = recording->recorder;
@@ -147,6 +244,32 @@ static int show(void *watched, const struct gx_snapshot *snapshot)
   return -1;
 }
 
+static int show(void *watched, const struct gx_snapshot *snapshot)
+{
+  struct recording *recording = watched;
+  if (recording->log.file < 0) return put_files(watched, snapshot);
+  errno = gx_snapshot_log_put(&recording->log, snapshot);
+  if (!errno) return 0;
+  recording->failed = true;
+  char *path = path_of(recording->recorder->directory, recording->id, LOG, true);
+  say(recording->recorder->errors, path);
+  free(path);
+  return -1;
+}
+
+/* The files of the snapshots that were logged. */
+static void replay(struct recording *recording)
+{
+  begin_files(recording);
+  if (recording->failed) return;
+  errno = gx_snapshot_log_replay(&recording->log, put_files, recording);
+  if (!errno || recording->failed) return; /* it was said */
+  recording->failed = true;
+  char *path = path_of(recording->recorder->directory, recording->id, LOG, true);
+  say(recording->recorder->errors, path);
+  free(path);
+}
+
 /* The hidden file takes its name; one that is not there need not. */
 static int publish(const char *directory, const char *id, int file, FILE *errors)
 {
@@ -166,6 +289,8 @@ static int end(void *watched, bool whole)
 {
   struct recording *recording = watched;
   const struct gx_recorder *recorder = recording->recorder;
+  const bool logged = recording->log.file >= 0, shown = logged || recording->file;
+  if (logged && whole && !recording->failed) replay(recording);
   bool said = recording->failed;
   errno = 0;
   int failed = close_files(recording);
@@ -174,9 +299,10 @@ static int end(void *watched, bool whole)
     say(recorder->errors, path);
     free(path);
   }
-  for (int f = 0; f < FILES && whole && !failed; f++) failed = publish(recorder->directory, recording->id, f, recorder->errors);
+  for (int f = 0; f < FILES && shown && whole && !failed; f++)
+    failed = publish(recorder->directory, recording->id, f, recorder->errors);
   if (!whole || failed) remove_files(recording);
-  free(recording);
+  release(recording);
   return failed;
 }
 
@@ -186,7 +312,7 @@ struct gx_recorder *gx_recorder_create(const char *directory, FILE *errors)
   if (!recorder) return NULL;
   recorder->directory = directory;
   recorder->errors = errors;
-  recorder->observer = (struct gx_observer){recorder, begin, show, end};
+  recorder->observer = (struct gx_observer){.context = recorder, .begin = begin, .show = show, .end = end};
   pthread_mutex_init(&recorder->lock, NULL);
   return recorder;
 }
@@ -203,6 +329,34 @@ const struct gx_observer *gx_recorder_observer(const struct gx_recorder *recorde
   return &recorder->observer;
 }
 
+void gx_recorder_keep(struct gx_recorder *recorder, const char *identity, bool resume, bool quiet)
+{
+  recorder->identity = identity;
+  recorder->resume = resume;
+  recorder->quiet = quiet;
+  recorder->observer.restore = restore;
+  recorder->observer.keep = keep;
+}
+
+void gx_recorder_forget(const struct gx_recorder *recorder, const char *id)
+{
+  char *path[] = {checkpoint_path(recorder->directory, id), path_of(recorder->directory, id, LOG, true)};
+  for (int i = 0; i < 2; i++) {
+    if (path[i]) unlink(path[i]);
+    free(path[i]);
+  }
+}
+
+bool gx_recorder_goes_on(const struct gx_recorder *recorder, const char *id)
+{
+  struct gx_checkpoint_mark mark;
+  char *path = checkpoint_path(recorder->directory, id), *identity = identity_of(recorder, id);
+  const bool found = path && identity && !gx_checkpoint_look(path, identity, &mark);
+  free(path);
+  free(identity);
+  return found;
+}
+
 bool gx_recorder_has(const char *directory, const char *id)
 {
   char *path = path_of(directory, id, H5, false);
@@ -211,7 +365,7 @@ bool gx_recorder_has(const char *directory, const char *id)
   return is_there;
 }
 
-/* The id in a name of ours. */
+/* The id in a name of ours; hidden: it is that of a case under way. */
 static bool split_name(const char *name, char id[GX_ID_LENGTH], bool *hidden)
 {
   *hidden = *name == '.';
@@ -220,10 +374,11 @@ static bool split_name(const char *name, char id[GX_ID_LENGTH], bool *hidden)
   memcpy(id, name + 5, GX_ID_LENGTH - 1);
   id[GX_ID_LENGTH - 1] = '\0';
   const char *rest = name + 5 + GX_ID_LENGTH - 1;
-  for (int f = 0; f < FILES; f++) {
+  for (int f = 0; f < (*hidden ? ALL : FILES); f++) {
     size_t length = strlen(endings[f]);
     if (!strncmp(rest, endings[f], length) && !strcmp(rest + length, *hidden ? partial : "")) return true;
   }
+  if (*hidden && !strcmp(rest, endings[CHECKPOINT])) return true;
   return false;
 }
 
@@ -232,6 +387,24 @@ bool gx_recorder_owns(const char *name)
   char id[GX_ID_LENGTH];
   bool hidden;
   return split_name(name, id, &hidden);
+}
+
+int gx_recorder_refuse(const char *directory, FILE *errors)
+{
+  DIR *stream = opendir(directory);
+  int failed = stream ? 0 : say(errors, directory);
+  for (struct dirent *entry; !failed && (entry = readdir(stream));) {
+    const size_t length = strlen(entry->d_name), ending = strlen(endings[CHECKPOINT]);
+    if (!gx_recorder_owns(entry->d_name) || strcmp(entry->d_name + length - ending, endings[CHECKPOINT])) continue;
+    fprintf(
+        errors,
+        "%s: holds the checkpoint of a case that was interrupted: add --resume to go on with it, name another directory with -o, "
+        "or remove %s/%s\n",
+        directory, directory, entry->d_name);
+    failed = -1;
+  }
+  if (stream) closedir(stream);
+  return failed;
 }
 
 static int copy_file(const char *from, const char *to, FILE *errors)

@@ -28,7 +28,7 @@ struct gx_store {
   bool finished;          /* the directory holds the study already */
   int lock;               /* descriptor of the directory, -1: none */
   struct gx_journal *journal;
-  struct gx_recorder *recorder; /* of snapshots */
+  struct gx_recorder *recorder; /* of snapshots and checkpoints */
 };
 
 static bool is_mine(const struct gx_store *store, size_t index)
@@ -122,6 +122,16 @@ static int take_finished(struct gx_store *store)
   return store->finished ? 0 : -1;
 }
 
+/* Whether a case of this study was interrupted behind a checkpoint. */
+static bool has_checkpoint(const struct gx_store *store)
+{
+  for (size_t i = 0; i < store->study->count; i++) {
+    const struct gx_case *one = &store->study->cases[i];
+    if (one->value[GX_OUTPUT_CHECKPOINT].type == GX_INTEGER && gx_recorder_goes_on(store->recorder, one->id)) return true;
+  }
+  return false;
+}
+
 static void mark(void *context, size_t journal, size_t index, uint64_t offset)
 {
   struct gx_store *store = context;
@@ -137,6 +147,7 @@ static int begin(struct gx_store *store, const struct gx_store_how *how)
   store->recorder = gx_recorder_create(store->directory, store->errors);
   if (!store->directory || !store->skip || !store->recorder) return gx_assembly_say(store->errors, NULL);
   if (identify(store)) return -1;
+  gx_recorder_keep(store->recorder, store->identity, how->resume, how->quiet);
   for (size_t i = 0; i < store->study->count; i++) {
     store->total += is_mine(store, i);
     store->skip[i] = !is_mine(store, i);
@@ -144,11 +155,12 @@ static int begin(struct gx_store *store, const struct gx_store_how *how)
   if (!how->joins) {
     if (gx_store_prepare(store->directory, store->errors) || lock_directory(store)) return -1;
     if (gx_journals_check(store->directory, store->identity, how->resume, store->errors)) return -1;
+    if (!how->resume && gx_recorder_refuse(store->directory, store->errors)) return -1;
     struct gx_journals *journals = gx_journals_open(store->directory, store->identity, store->errors);
     if (!journals) return -1;
     int failed = gx_journals_scan(journals, mark, store);
     gx_journals_close(journals);
-    if (failed || (how->resume && !store->done && take_finished(store))) return -1;
+    if (failed || (how->resume && !store->done && !has_checkpoint(store) && take_finished(store))) return -1;
   }
   if (store->finished) return 0;
   store->journal = gx_journal_create(store->directory, store->identity, store->errors);
@@ -182,6 +194,7 @@ static int put(void *context, size_t index, struct gx_result *result)
 {
   struct gx_store *store = context;
   if (!store->finished && gx_journal_append(store->journal, index, result)) return -1;
+  gx_recorder_forget(store->recorder, store->study->cases[index].id);
   atomic_fetch_add(&store->done, 1);
   return 0;
 }

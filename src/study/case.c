@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Planning and running one case. A method that fails ends the case with a status; nothing here aborts. */
+/* Running one case. A method that fails ends the case with a status; nothing here aborts. */
 #include <gridcross/study.h>
 
 #include <math.h>
@@ -12,9 +12,9 @@
 
 #include "../core/team.h"
 #include "../measures/restitution.h"
+#include "history.h"
 #include "kept.h"
 #include "simulation_plan.h"
-#include "stability.h"
 #include "stable_dt.h"
 #include "watch.h"
 
@@ -41,7 +41,8 @@ struct run {
   double samples, timed;    /* taken; of those after the first few, whose cost was read from the clock */
   double timed_seconds;     /* that these took */
   double least_seconds;     /* that one of them took */
-  double observing;         /* s of it for the first few samples, jumps, spectra, frequency, budgets and snapshots */
+  double observing;         /* s of it for the first few samples, jumps, spectra, frequency, budgets, snapshots and checkpoints */
+  double began;             /* s, when the steps did; earlier for those taken before a checkpoint */
 };
 
 static bool is_cancelled(const struct gx_case_means *means)
@@ -83,39 +84,6 @@ static size_t nearest_particle(const struct gx_particles *particles, const char 
     }
   }
   return nearest;
-}
-
-static enum gx_status prepare_history(struct run *run, double samples)
-{
-  struct gx_history *history = &run->result->history;
-  bool probed = run->result->probe >= 0;
-  history->jumps = run->simulation.jumps;
-  history->dim = run->simulation.particles->dim;
-  history->sample = malloc((size_t)samples * sizeof *history->sample);
-  history->probe = probed ? malloc((size_t)samples * sizeof *history->probe) : NULL;
-  history->budget = run->budget ? malloc((size_t)samples * sizeof *history->budget) : NULL;
-  if (history->sample && (history->probe || !probed) && (history->budget || !run->budget)) return GX_OK;
-  return gx_status_set(&run->result->outcome, GX_FAILED, -1, "out of memory for %.3g history samples", samples);
-}
-
-static enum gx_status prepare_spectra(struct run *run, double samples)
-{
-  const struct gx_simulation *simulation = &run->simulation;
-  const struct gx_space_options *options = &simulation->space_options;
-  int cells = options->cells[0];
-  run->spectrum = gx_spectrum_create(simulation->particles, cells * simulation->per_cell, options->periodic);
-  if (!run->spectrum) return gx_status_set(&run->result->outcome, GX_FAILED, -1, "out of memory for spectra");
-  struct gx_spectra *spectra = &run->result->spectra;
-  *spectra = (struct gx_spectra){
-      .bins = gx_spectrum_bins(run->spectrum),
-      .spacing = gx_spectrum_spacing(run->spectrum),
-      .nyquist = 0.5 * cells,
-      .driven = simulation->problem_options.mode,
-  };
-  spectra->time = malloc((size_t)samples * sizeof(double));
-  spectra->rms = malloc((size_t)samples * GX_QUANTITIES * spectra->bins * sizeof(double));
-  if (spectra->time && spectra->rms) return GX_OK;
-  return gx_status_set(&run->result->outcome, GX_FAILED, -1, "out of memory for %.3g spectra", samples);
 }
 
 /* refine: divides the time step. */
@@ -160,8 +128,10 @@ static enum gx_status prepare(struct run *run, const struct gx_case *one, double
   if (run->budget && simulation->jumps) gx_budget_jumps(run->budget);
   if (simulation->problem->second && !(run->restitution = gx_restitution_create(simulation->space)))
     return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the restitution");
-  if (run->history_every > 0 || run->budget_every > 0) GX_TRY(prepare_history(run, gx_kept_samples(simulation, one)));
-  if (run->spectra_every > 0) GX_TRY(prepare_spectra(run, gx_kept_spectra(simulation, one)));
+  if (run->history_every > 0 || run->budget_every > 0)
+    GX_TRY(gx_history_begin(run->result, simulation, gx_kept_samples(simulation, one), run->budget));
+  if (run->spectra_every > 0)
+    GX_TRY(gx_history_begin_spectra(run->result, simulation, gx_kept_spectra(simulation, one), &run->spectrum));
   GX_TRY(gx_watch_begin(&run->watch, simulation, one, run->measure, run->means.observer, outcome));
   run->frequency.interval = run->frequency_every * simulation->dt;
   double m = 0, c = simulation->posed->speed;
@@ -327,14 +297,64 @@ static double kinetic_energy(const struct run *run)
   return kinetic;
 }
 
+/* Everything that changes from step to step; restitution, limits and rooms are those of the start. */
+static void image_run(void *context, struct gx_image *image)
+{
+  struct run *run = context;
+  double spent = seconds_now(run) - run->began;
+  GX_IMAGE(image, run->result->steps);
+  GX_IMAGE(image, run->result->time);
+  GX_IMAGE(image, run->time);
+  GX_IMAGE(image, run->lost);
+  GX_IMAGE(image, run->frequency);
+  GX_IMAGE(image, run->samples);
+  GX_IMAGE(image, run->timed);
+  GX_IMAGE(image, run->timed_seconds);
+  GX_IMAGE(image, run->least_seconds);
+  GX_IMAGE(image, run->observing);
+  GX_IMAGE(image, spent);
+  gx_history_image(run->result, image);
+  gx_measure_image(run->measure, image);
+  if (run->budget) gx_budget_image(run->budget, image);
+  if (gx_stepper_image(run->stepper, image) != GX_OK) image->failed = true;
+  if (image->loading) run->began = seconds_now(run) - spent;
+}
+
+static struct gx_checkpoint checkpoint_of(struct run *run)
+{
+  return (struct gx_checkpoint){.step = run->result->steps, .run = run, .image = image_run};
+}
+
+/* The start, or where an earlier run of the case was. */
+static enum gx_status begin_steps(struct run *run)
+{
+  const struct gx_checkpoint checkpoint = checkpoint_of(run);
+  bool loaded;
+  run->began = seconds_now(run);
+  for (int i = 0; i < GX_BUDGET_ENTRIES; i++) run->budgeted.value[i] = NAN;
+  GX_TRY(gx_watch_restore(&run->watch, &checkpoint, &loaded, &run->result->outcome));
+  if (loaded) return GX_OK;
+  GX_TRY(take_sample(run, 0));
+  sample_frequency(run, 0);
+  return GX_OK;
+}
+
+static enum gx_status keep(struct run *run, double step)
+{
+  if (run->watch.keep_every == 0) return GX_OK;
+  const struct gx_checkpoint checkpoint = checkpoint_of(run);
+  double before = seconds_now(run);
+  enum gx_status status = gx_watch_keep(&run->watch, &checkpoint, step == run->simulation.steps, &run->result->outcome);
+  run->observing += seconds_now(run) - before;
+  return status;
+}
+
 static enum gx_status take_steps(struct run *run)
 {
   const struct gx_simulation *simulation = &run->simulation;
   struct gx_result *result = run->result;
-  for (int i = 0; i < GX_BUDGET_ENTRIES; i++) run->budgeted.value[i] = NAN;
-  GX_TRY(take_sample(run, 0));
-  sample_frequency(run, 0);
-  for (double step = 1; step <= simulation->steps; step++) {
+  GX_TRY(begin_steps(run));
+  for (double step = result->steps + 1; step <= simulation->steps; step++) {
     if (is_cancelled(&run->means)) return gx_status_set(&result->outcome, GX_CANCELLED, -1, "cancelled");
     GX_TRY(take_budget(run, step));
     GX_TRY(gx_stepper_step(run->stepper, run->time, simulation->dt));
@@ -349,6 +369,7 @@ static enum gx_status take_steps(struct run *run)
                            simulation->problem->exact ? "the exact solution's" : "the energy that there is");
     GX_TRY(take_sample(run, step));
     sample_frequency(run, step);
+    GX_TRY(keep(run, step));
   }
   return GX_OK;
 }
@@ -356,9 +377,8 @@ static enum gx_status take_steps(struct run *run)
 static enum gx_status march(struct run *run)
 {
   struct gx_result *result = run->result;
-  double before = seconds_now(run);
   enum gx_status status = take_steps(run);
-  const double spent = seconds_now(run) - before - measuring_seconds(run);
+  const double spent = seconds_now(run) - run->began - measuring_seconds(run);
   result->seconds = spent > 0 ? spent : NAN;
   if (result->steps > 0)
     result->ns_per_particle_step = 1e9 * result->seconds / (result->steps * (double)run->simulation.particles->n);
@@ -385,6 +405,7 @@ static struct gx_case without_measures(const struct gx_case *one)
   bare.value[GX_OUTPUT_SPECTRA].integer = 0;
   bare.value[GX_OUTPUT_FREQUENCY].integer = 0;
   bare.value[GX_OUTPUT_BUDGET].type = bare.value[GX_OUTPUT_SNAPSHOTS].type = GX_NULL;
+  bare.value[GX_OUTPUT_CHECKPOINT].type = GX_NULL;
   return bare;
 }
 
@@ -475,22 +496,4 @@ void gx_case_free(struct gx_result *result)
   free(result->history.budget);
   result->history = (struct gx_history){0};
   result->spectra = (struct gx_spectra){0};
-}
-
-struct gx_plan gx_case_plan(const struct gx_case *one)
-{
-  struct gx_plan plan = {.outcome = {.status = GX_OK, .particle = -1}, .stable_dt = NAN, .growth = NAN};
-  struct gx_simulation simulation;
-  if (gx_simulation_plan(&simulation, one, &plan.outcome) == GX_OK && gx_simulation_build(&simulation, &plan.outcome) == GX_OK &&
-      gx_kept_refuse(&simulation, one, &plan.outcome) == GX_OK) {
-    plan.particles = (double)simulation.particles->n;
-    plan.stable_dt = gx_stable_dt(one, false, NULL);
-    if (!simulation.space->through_cells)
-      plan.growth = gx_stability_growth(simulation.space); /* else it sees the flow's own stretching */
-  }
-  plan.dt = simulation.dt;
-  plan.end = simulation.end;
-  plan.steps = simulation.steps;
-  gx_simulation_free(&simulation);
-  return plan;
 }

@@ -97,7 +97,7 @@ static int end(void *watched, bool whole)
 
 static struct gx_result watch(const struct gx_case *one, struct seen *seen)
 {
-  const struct gx_observer observer = {seen, begin, show, end};
+  const struct gx_observer observer = {.context = seen, .begin = begin, .show = show, .end = end};
   const struct gx_case_means means = {.observer = &observer};
   seen->fail_at = -1;
   return gx_case_run_by(one, &means);
@@ -140,7 +140,7 @@ static void test_a_failing_observer_cancels(void **unused)
   (void)unused;
   struct gx_case one = case_of("mesh.cells=8", "output.snapshots=1", "time.steps=5");
   struct seen seen = {0};
-  const struct gx_observer observer = {&seen, begin, show, end};
+  const struct gx_observer observer = {.context = &seen, .begin = begin, .show = show, .end = end};
   seen.fail_at = 2;
   struct gx_result result = gx_case_run_by(&one, &(struct gx_case_means){.observer = &observer});
   assert_int_equal(result.outcome.status, GX_CANCELLED);
@@ -165,7 +165,7 @@ static void test_a_failing_observer_ends_a_study(void **unused)
       gx_runfile_parse("test", "mesh: {cells: [4, 5, 6]}\nproblem: {name: bar-neo-hookean}\noutput: {snapshots: 1}\n", stderr);
   struct seen seen = {.fail_at = 2};
   int told = 0;
-  const struct gx_observer observer = {&seen, begin, show, end};
+  const struct gx_observer observer = {.context = &seen, .begin = begin, .show = show, .end = end};
   const struct gx_study_means means = {.threads = 1, .sink = {&told, count}, .observer = &observer};
   assert_int_equal(gx_study_run(study, &means), -1);
   assert_int_equal(told, 0);

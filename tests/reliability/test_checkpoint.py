@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A case that is killed behind a checkpoint goes on from there to the bytes of an undisturbed run. usage: test_checkpoint.py GRIDCROSS"""
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve()
+# one case of many more steps than are taken until it is looked at; its measures and files are those of a short one
+STUDY = """problem: {name: bar-neo-hookean}
+mesh: {cells: 64}
+method: {space: moving-mesh}
+time: {cfl: 0.0005}
+output: {checkpoint: 32000, histories: 5000, snapshots: 20000, spectra: 50000, frequency: 1000, probe: 0.3}
+"""
+IGNORED = ("run.json", "timing.csv")
+
+
+class Checkpoint(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.top = pathlib.Path(cls.temporary.name)
+        (cls.top / "study.yaml").write_text(STUDY)
+        (cls.top / "other.yaml").write_text(STUDY.replace("0.3}", "0.6}"))
+        cls.call(cls, "run", "study.yaml", "-o", "whole", "-q")
+        cls.whole = cls.bytes_of(cls, "whole")
+        cls.kill_behind(cls, "study.yaml", "cut")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def call(self, *args, code=0):
+        done = subprocess.run([PROGRAM, *args], cwd=self.top, capture_output=True, text=True, timeout=500)
+        if done.returncode != code:
+            raise AssertionError(f"{args}: {done.returncode} {done.stdout[-300:]}\n{done.stderr[-800:]}")
+        return done
+
+    def kill_behind(self, study, directory, *args, by=signal.SIGKILL):
+        """Ends a run as soon as there is a checkpoint that was not there. Returns what it said."""
+        checkpoint = lambda: {(p, p.stat().st_mtime_ns) for p in (self.top / directory).glob(".case-*.checkpoint")}
+        old = checkpoint()
+        process = subprocess.Popen([PROGRAM, "run", study, "-o", directory, *args], cwd=self.top, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        while process.poll() is None and not checkpoint() - old:
+            time.sleep(0.001)
+        process.send_signal(by)
+        out, err = process.communicate()
+        if process.returncode == 0:
+            raise unittest.SkipTest("the case was done before it could be killed")
+        return err
+
+    def bytes_of(self, directory):
+        files = sorted(p for p in (self.top / directory).iterdir() if p.name not in IGNORED)
+        return {p.name: p.read_bytes() for p in files}
+
+    def copy(self, name):
+        shutil.copytree(self.top / "cut", self.top / name)
+        (path,) = (self.top / name).glob(".case-*.checkpoint")
+        return path
+
+    def resume_ends_whole(self, directory):
+        done = self.call("run", "study.yaml", "-o", directory, "--resume")
+        now = self.bytes_of(directory)
+        self.assertEqual(sorted(now), sorted(self.whole))
+        for name, content in now.items():
+            self.assertTrue(content == self.whole[name], f"{name} differs")
+        return done.stderr
+
+    def test_killed_again_and_again(self):
+        self.copy("killed")
+        steps = []
+        for by in (signal.SIGKILL, signal.SIGINT):
+            said = self.kill_behind("study.yaml", "killed", "--resume", by=by)
+            self.assertIn("goes on from step ", said)
+            steps.append(int(said.split("goes on from step ")[1].split()[0]))
+        said = self.resume_ends_whole("killed")
+        steps.append(int(said.split("goes on from step ")[1].split()[0]))
+        self.assertEqual(steps, sorted(set(steps)))
+        self.assertTrue(all(step > 0 and step % 32000 == 0 for step in steps), steps)
+
+    def test_a_run_that_does_not_resume_is_refused(self):
+        path = self.copy("kept")
+        before = self.bytes_of("kept")
+        self.assertIn("--resume", self.call("run", "study.yaml", "-o", "kept", code=2).stderr)
+        kept = self.bytes_of("kept")
+        self.assertEqual(kept[path.name], before[path.name])
+        path.unlink()
+        self.assertNotIn("goes on", self.kill_behind("study.yaml", "kept"))
+
+    def test_what_is_left_half_written_is_not_read(self):
+        path = self.copy("torn")
+        path.with_name(path.name + ".partial").write_bytes(path.read_bytes()[:1000])
+        (log,) = (self.top / "torn").glob(".case-*.snapshots.partial")
+        with log.open("ab") as file:  # what a run has written since
+            file.write(b"x" * 12345)
+        self.assertIn("goes on from step", self.resume_ends_whole("torn"))
+
+    def test_a_damaged_checkpoint_is_not_used(self):
+        for name, damage in {
+            "first": lambda b: bytes([b[0] ^ 1]) + b[1:],
+            "image": lambda b: b[:-5000] + bytes([b[-5000] ^ 128]) + b[-4999:],
+            "short": lambda b: b[:-8],
+            "empty": lambda b: b"",
+        }.items():
+            with self.subTest(damage=name):
+                path = self.copy(f"damaged-{name}")
+                path.write_bytes(damage(path.read_bytes()))
+                said = self.kill_behind("study.yaml", f"damaged-{name}", "--resume")
+                self.assertIn(f"{path.name}: is damaged: the case begins anew", said)
+
+    def test_a_foreign_checkpoint_is_not_used(self):
+        path = self.copy("foreign")
+        self.kill_behind("other.yaml", "others")
+        (other,) = (self.top / "others").glob(".case-*.checkpoint")
+        shutil.copy(other, path)
+        said = self.kill_behind("study.yaml", "foreign", "--resume")
+        self.assertIn(f"{path.name}: is of another study", said)
+
+    def test_a_checkpoint_without_its_snapshots_is_not_used(self):
+        for name, damage in (("short", lambda b: b[:100]), ("flipped", lambda b: b"\1" + b[1:])):
+            with self.subTest(damage=name):
+                path = self.copy(f"unseen-{name}")
+                (log,) = (self.top / f"unseen-{name}").glob(".case-*.snapshots.partial")
+                log.write_bytes(damage(log.read_bytes()))
+                said = self.kill_behind("study.yaml", f"unseen-{name}", "--resume")
+                self.assertIn(f"{path.name}: has lost its snapshots: the case begins anew", said)
+
+
+if __name__ == "__main__":
+    unittest.main()
