@@ -34,7 +34,7 @@ static int open_column(struct gx_hdf5_rows *rows, const char *name)
   hid_t dataset = H5Dopen2(rows->group, name, H5P_DEFAULT);
   rows->dataset[c] = dataset;
   hssize_t total = dataset < 0 ? -1 : gx_handle_shape(dataset, &type);
-  if (total < 0 || (c && (size_t)total != rows->total) || !gx_handle_holds(dataset, (double)total * (double)(c + 1))) {
+  if (total < 0 || (c && (size_t)total != rows->total)) {
     if (dataset >= 0) H5Dclose(dataset);
     return -1;
   }
@@ -59,6 +59,7 @@ static int open_columns(struct gx_hdf5_rows *rows, size_t columns, const char *c
     if (!gx_handle_member(rows->group, i, member)) return -1;
     if (is_wanted(member, columns, name) && open_column(rows, member)) return -1;
   }
+  if (!gx_handle_holds(rows->group, (double)rows->total * (double)rows->like->columns)) return -1;
   return 0;
 }
 
