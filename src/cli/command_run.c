@@ -79,10 +79,8 @@ struct running {
 };
 
 /* What is kept, for another run to go on with. */
-static void tell_kept(const struct running *run)
+static void tell_kept(const struct running *run, size_t done, size_t total)
 {
-  size_t done, total;
-  gx_store_count(run->store, &done, &total);
   fputs("gridcross run: ", stderr);
   if (atomic_load(&run->interrupt.signal)) fputs("interrupted; ", stderr);
   if (run->ranks)
@@ -96,8 +94,10 @@ static void tell_kept(const struct running *run)
 static int end_early(struct running *run)
 {
   const int signal = atomic_load(&run->interrupt.signal);
+  size_t done = 0, total = 0;
+  if (run->store) gx_store_count(run->store, &done, &total); /* a rank that waits for the others has closed its own */
   const int failed = gx_store_close(run->store);
-  if (!signal || gx_ranks_first(run->ranks)) tell_kept(run);
+  if (!signal || gx_ranks_first(run->ranks)) tell_kept(run, done, total);
   run->store = NULL;
   run->broken = true;
   return failed || !signal ? GX_EXIT_FAILED : 128 + signal;
@@ -108,9 +108,11 @@ static int finish(struct running *run, double seconds)
   char *command = gx_options_line(run->options);
   if (!command) return gx_command_no_memory();
   const struct gx_store_run about = {.command = command, .seconds = seconds};
+  size_t done, total;
+  gx_store_count(run->store, &done, &total);
   int failed = gx_store_finish(run->store, &about);
   free(command);
-  if (failed) tell_kept(run);
+  if (failed) tell_kept(run, done, total);
   gx_store_close(run->store);
   run->store = NULL;
   if (failed) return GX_EXIT_FAILED;
