@@ -467,13 +467,12 @@ enum gx_status gx_measure_take(struct gx_measure *measure, struct gx_stepper *st
 
 void gx_measure_image(struct gx_measure *measure, struct gx_image *image)
 {
-  struct vector_field *const field[] = {&measure->v, &measure->a, &measure->a_before, &measure->cell};
+  struct vector_field *const field[] = {&measure->v, &measure->a, &measure->cell};
   for (size_t i = 0; i < sizeof field / sizeof *field; i++)
     if (field[i]->component[0]) gx_image_reals(image, measure->dim, field[i]->component, measure->n);
   if (measure->jump) gx_jump_image(measure->jump, image);
   GX_IMAGE(image, measure->started);
   GX_IMAGE(image, measure->probe);
-  GX_IMAGE(image, measure->probe_a);
   GX_IMAGE(image, measure->work);
   GX_IMAGE(image, measure->start_energy);
   GX_IMAGE(image, measure->start_balance);
