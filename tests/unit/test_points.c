@@ -278,6 +278,35 @@ static void errors_of_datasets_are_reported(void **state)
   expect("list.h5", 1, (const char *const[]){" is damaged or not an HDF5 file", NULL});
 }
 
+/* Of whoever sends a list, no other file is read, and no more memory taken than its particles need. */
+static void datasets_are_in_the_file_itself(void **state)
+{
+  (void)state;
+  enum { CHUNK = 10000001 };
+  char path[128];
+  snprintf(path, sizeof path, "%s/list.h5", folder);
+  hid_t file = begin_hdf5();
+  put_dataset(file, "other", H5T_NATIVE_DOUBLE, N, volume);
+  H5Lcreate_external(path, "/other", file, "x", H5P_DEFAULT, H5P_DEFAULT);
+  const hsize_t rows = N, chunk = CHUNK;
+  hid_t space = H5Screate_simple(1, &rows, NULL), outside = H5Pcreate(H5P_DATASET_CREATE),
+        chunked = H5Pcreate(H5P_DATASET_CREATE);
+  H5Pset_external(outside, path, 0, H5F_UNLIMITED);
+  H5Dclose(H5Dcreate2(file, "y", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, outside, H5P_DEFAULT));
+  const hsize_t any = H5S_UNLIMITED;
+  H5Sset_extent_simple(space, 1, &rows, &any);
+  H5Pset_chunk(chunked, 1, &chunk);
+  H5Dclose(H5Dcreate2(file, "volume", H5T_NATIVE_INT8, space, H5P_DEFAULT, chunked, H5P_DEFAULT));
+  H5Pclose(chunked);
+  H5Pclose(outside);
+  H5Sclose(space);
+  H5Fclose(file);
+  expect("list.h5", 2,
+         (const char *const[]){" dataset 'x' is missing",
+                               " dataset 'y' is kept in other files or in too large chunks; copy it into this one",
+                               " dataset 'volume' is kept in other files or in too large chunks; copy it into this one", NULL});
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -288,6 +317,7 @@ int main(void)
       cmocka_unit_test(a_pipe_gives_its_particles),
       cmocka_unit_test(hdf5_gives_its_particles),
       cmocka_unit_test(errors_of_datasets_are_reported),
+      cmocka_unit_test(datasets_are_in_the_file_itself),
   };
   return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -6,6 +6,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <hdf5.h>
+
 #include <gridcross/store.h>
 
 #include "check.h"
@@ -248,6 +250,26 @@ static void damaged_files_are_refused(void **state)
   }
 }
 
+/* A column that claims more rows than the file could hold: its header alone is cheap to forge. */
+static void claims_of_a_header_take_no_memory(void **state)
+{
+  struct fixture *f = *state;
+  const hsize_t rows = (hsize_t)1 << 27;
+  struct gx_table *table = example_table();
+  assert_int_equal(write_study(f, f->path, table), 0);
+  gx_table_free(table);
+  hid_t file = H5Fopen(f->path, H5F_ACC_RDWR, H5P_DEFAULT), group = H5Gopen2(file, "table", H5P_DEFAULT);
+  static const char *const names[] = {"z,word", "count", "a.real"};
+  for (int i = 0; i < 3; i++) assert_true(H5Ldelete(group, names[i], H5P_DEFAULT) >= 0);
+  hid_t space = H5Screate_simple(1, &rows, NULL);
+  hid_t dataset = H5Dcreate2(group, "case", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  H5Dclose(dataset);
+  H5Sclose(space);
+  H5Gclose(group);
+  H5Fclose(file);
+  refuse(f->path);
+}
+
 static void a_study_is_stored_and_read_with_its_timing(void **state)
 {
   struct fixture *f = *state;
@@ -317,6 +339,7 @@ int main(void)
       cmocka_unit_test_setup_teardown(hdf5_gives_back_what_was_written, set_up, tear_down),
       cmocka_unit_test_setup_teardown(equal_studies_give_equal_bytes, set_up, tear_down),
       cmocka_unit_test_setup_teardown(damaged_files_are_refused, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(claims_of_a_header_take_no_memory, set_up, tear_down),
       cmocka_unit_test_setup_teardown(a_study_is_stored_and_read_with_its_timing, set_up, tear_down),
       cmocka_unit_test_setup_teardown(only_studies_are_overwritten, set_up, tear_down),
   };
