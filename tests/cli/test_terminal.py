@@ -53,12 +53,12 @@ class Terminal(Studied):
         self.assertNotIn("\033", self.call("compare", "small.study").stdout)
 
     def test_progress_on_a_terminal_alone(self):
-        long = ["run", "small.yaml", "--set", "mesh.cells=[64, 128]", "--set", "time.periods=8"]
-        text = self.shown(*long)
+        long = ["run", "small.yaml", "--set", "mesh.cells=[64, 128]", "--set"]
+        text = self.shown(*long, "time.periods=80")
         self.assertRegex(text, r"\r\033\[K\d of 8 cases, \d+ %, about \d+ s left")
         self.assertRegex(text, r"\r\033\[K +mesh  method[^\r]*\Z")  # and the line is empty when the table begins
-        self.assertNotIn("\033", self.shown(*long, "-q"))
-        self.assertEqual(self.call(*long).stderr, "study: ./small.study\n")  # short: no plain lines
+        self.assertNotIn("\033", self.shown(*long, "time.periods=8", "-q"))
+        self.assertEqual(self.call(*long, "time.periods=8").stderr, "study: ./small.study\n")  # short: no plain lines
 
 
 if __name__ == "__main__":
