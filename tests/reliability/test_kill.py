@@ -287,10 +287,10 @@ class Places(Case):
             self.skipTest("no disk of one's own to fill")
         whole, _ = self.undisturbed()
         size = sum(p.stat().st_size for p in (self.dir / "whole").iterdir())
-        script = f"""set -u; cd {self.dir}; mkdir small; mount -t tmpfs -o size=$1 none small
-            {PROGRAM} run study.yaml -o small/d -q >/dev/null 2>small.err; echo $? >small.code
+        script = f"""set -u; cd "{self.dir}"; mkdir small; mount -t tmpfs -o size=$1 none small
+            "{PROGRAM}" run study.yaml -o small/d -q >/dev/null 2>small.err; echo $? >small.code
             mount -o remount,size=100m small; ls -A small/d >small.names
-            {PROGRAM} run study.yaml -o small/d -q --resume >/dev/null && rm -rf big && cp -r small/d big"""
+            "{PROGRAM}" run study.yaml -o small/d -q --resume >/dev/null && rm -rf big && cp -r small/d big"""
         for share in (0.05, 0.3, 0.5, 0.8):
             with self.subTest(share=share):
                 shutil.rmtree(self.dir / "small", ignore_errors=True)
