@@ -194,7 +194,8 @@ static int put(void *context, size_t index, struct gx_result *result)
 {
   struct gx_store *store = context;
   if (!store->finished && gx_journal_append(store->journal, index, result)) return -1;
-  gx_recorder_forget(store->recorder, store->study->cases[index].id);
+  const struct gx_case *one = &store->study->cases[index];
+  if (one->value[GX_OUTPUT_CHECKPOINT].type == GX_INTEGER) gx_recorder_forget(store->recorder, one->id);
   atomic_fetch_add(&store->done, 1);
   return 0;
 }
