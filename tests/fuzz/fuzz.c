@@ -11,7 +11,9 @@
 #include <gridcross/status.h>
 #include <gridcross/store.h>
 
-static char directory[64];
+#include "temporary.h"
+
+static char directory[TEMPORARY_ROOM];
 
 /* HDF5 loses memory over files that it finds damaged. */
 const char *__lsan_default_suppressions(void);
@@ -38,8 +40,7 @@ static void remove_directory(void)
 const char *fuzz_directory(void)
 {
   if (*directory) return directory;
-  strcpy(directory, "/tmp/gridcross-fuzz-XXXXXX");
-  require(mkdtemp(directory) != NULL, "no directory");
+  require(temporary_directory(directory, "fuzz"), "no directory");
   atexit(remove_directory);
   gx_status_quiet_gsl();
   return directory;

@@ -11,6 +11,7 @@
 #include "view/recipe.h"
 
 #include "check.h"
+#include "temporary.h"
 
 enum { COLUMNS = 10 };
 
@@ -295,8 +296,8 @@ static void what_cannot_be_advised_is_refused(void **state)
 
 static struct gx_study *read_text(const char *text)
 {
-  char path[] = "test_advise_XXXXXX";
-  int descriptor = mkstemp(path);
+  char path[TEMPORARY_ROOM];
+  int descriptor = temporary_file(path, "advise");
   assert_true(descriptor >= 0);
   assert_int_equal(write(descriptor, text, strlen(text)), strlen(text));
   close(descriptor);

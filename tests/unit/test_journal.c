@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "check.h"
+#include "temporary.h"
 #include "store/journal.h"
 
 enum { RECORDS = 4, SAMPLES = 3, LINES = 2, BINS = 5 };
@@ -15,7 +16,7 @@ enum { RECORDS = 4, SAMPLES = 3, LINES = 2, BINS = 5 };
 static const char *const identity = "version\t1\nrun\t#1:ab\n";
 
 struct fixture {
-  char directory[64], path[128], other[128];
+  char directory[TEMPORARY_ROOM], path[128], other[128];
   struct gx_result results[RECORDS];
 };
 
@@ -86,8 +87,7 @@ static void same_result(const struct gx_result *a, const struct gx_result *b)
 static int set_up(void **state)
 {
   struct fixture *f = calloc(1, sizeof *f);
-  strcpy(f->directory, "/tmp/gridcross-journal-XXXXXX");
-  if (!mkdtemp(f->directory)) return -1;
+  if (!temporary_directory(f->directory, "journal")) return -1;
   snprintf(f->path, sizeof f->path, "%s/.journal-1.partial", f->directory);
   snprintf(f->other, sizeof f->other, "%s/other", f->directory);
   struct gx_journal *journal = gx_journal_create(f->directory, identity, stderr);

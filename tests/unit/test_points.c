@@ -11,14 +11,15 @@
 #include <gridcross/store.h>
 
 #include "check.h"
+#include "temporary.h"
 #include "study/simulation_plan.h"
 
-static char folder[] = "test_points_XXXXXX";
+static char folder[TEMPORARY_ROOM];
 
 static int make_folder(void **state)
 {
   (void)state;
-  return mkdtemp(folder) ? 0 : -1;
+  return temporary_directory(folder, "points") ? 0 : -1;
 }
 
 static int remove_folder(void **state)

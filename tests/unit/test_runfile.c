@@ -14,14 +14,16 @@
 #include <gridcross/starter.h>
 #include <gridcross/study.h>
 
+#include "temporary.h"
+
 enum { MOST_SETS = 4 };
 
 /* Reads yaml with up to four --set strings (NULL-ended). errors: the text of errors, for the caller to free; NULL: none allowed. */
 static struct gx_study *read_yaml(const char *yaml, const char *const *set, char **errors)
 {
-  char path[] = "test_runfile_XXXXXX", *message = NULL;
+  char path[TEMPORARY_ROOM], *message = NULL;
   size_t sets = 0, length = 0;
-  int descriptor = mkstemp(path);
+  int descriptor = temporary_file(path, "runfile");
   assert_true(descriptor >= 0);
   assert_int_equal(write(descriptor, yaml, strlen(yaml)), strlen(yaml));
   close(descriptor);

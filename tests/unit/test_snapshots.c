@@ -9,6 +9,7 @@
 #include <gridcross/series.h>
 
 #include "case_of.h"
+#include "temporary.h"
 
 /* What an observer saw of a run. */
 struct seen {
@@ -187,9 +188,9 @@ static void test_absurd_sizes_are_refused(void **unused)
 
 static int set_up(void **state)
 {
-  char *directory = strdup("/tmp/gridcross-snapshots-XXXXXX");
+  char *directory = malloc(TEMPORARY_ROOM);
   *state = directory;
-  return directory && mkdtemp(directory) ? 0 : -1;
+  return directory && temporary_directory(directory, "snapshots") ? 0 : -1;
 }
 
 static int tear_down(void **state)

@@ -11,6 +11,7 @@
 #include <gridcross/store.h>
 
 #include "check.h"
+#include "temporary.h"
 #include "store/hdf5_write.h"
 
 enum { ROWS = 4 };
@@ -75,7 +76,7 @@ static void json_escapes_and_says_null(void **state)
 
 /* A study of two cases, one with a history. */
 struct fixture {
-  char directory[64], path[128], other[128];
+  char directory[TEMPORARY_ROOM], path[128], other[128];
   struct gx_case cases[2];
   struct gx_sample samples[2];
   struct gx_result results[2];
@@ -86,8 +87,7 @@ struct fixture {
 static int set_up(void **state)
 {
   struct fixture *f = calloc(1, sizeof *f);
-  strcpy(f->directory, "/tmp/gridcross-store-XXXXXX");
-  if (!mkdtemp(f->directory)) return -1;
+  if (!temporary_directory(f->directory, "store")) return -1;
   snprintf(f->path, sizeof f->path, "%s/a.h5", f->directory);
   snprintf(f->other, sizeof f->other, "%s/b.h5", f->directory);
   strcpy(f->title, "a \xE2\x82\xAC title");
