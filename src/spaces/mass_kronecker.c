@@ -126,7 +126,9 @@ int gx_mass_kronecker_factor_box(struct gx_mass_kronecker *kronecker, const stru
   int status = 0;
   for (int d = 0; d < kronecker->grid->dim && !status; d++) {
     const struct gx_axis *axis = &kronecker->grid->axis[d];
-    struct gx_particles *line = gx_particles_create(1, &axis->cells, axis->support, GX_LAYOUT_GAUSS, 1);
+    const int wanted = (axis->functions + axis->cells - 1) / axis->cells; /* of a single cell GIMP meets a function more */
+    const int per_cell = wanted > axis->support ? wanted : axis->support;
+    struct gx_particles *line = gx_particles_create(1, &axis->cells, per_cell, GX_LAYOUT_GAUSS, 1);
     status = line ? factor_full_line(kronecker->band[d], line, basis) : -2;
     gx_particles_free(line);
   }
