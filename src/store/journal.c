@@ -18,6 +18,7 @@ struct gx_journal {
   char *path; /* owned */
   FILE *errors;
   int file;
+  off_t size; /* bytes of whole records */
   pthread_mutex_t lock;
   pthread_cond_t closing;
   pthread_t flusher;
@@ -32,8 +33,12 @@ static int say(const struct gx_journal *journal, const char *what)
   return -1;
 }
 
+/* What was written to a file that has been removed vanishes with the last process that has it open. */
 static int flush(int file)
 {
+  struct stat status;
+  if (fstat(file, &status)) return errno;
+  if (status.st_nlink == 0) return ENOENT;
   /* EINVAL: a file system that cannot; nothing more to be done there. */
   return fsync(file) && errno != EINVAL && errno != EROFS ? errno : 0;
 }
@@ -59,17 +64,16 @@ static void *keep_flushed(void *argument)
 }
 
 /* All of it or nothing. Returns 0 or errno. */
-static int write_all(int file, struct iovec *part, int parts)
+static int write_all(struct gx_journal *journal, struct iovec *part, int parts)
 {
-  struct stat before;
-  if (fstat(file, &before)) return errno;
-  if (before.st_nlink == 0) return ENOENT; /* what is written now would vanish with the last process that has it open */
+  off_t whole = 0;
+  for (int i = 0; i < parts; i++) whole += (off_t)part[i].iov_len;
   while (parts) {
-    ssize_t written = writev(file, part, parts);
+    ssize_t written = writev(journal->file, part, parts);
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) {
       int failed = errno;
-      return ftruncate(file, before.st_size) ? errno : failed;
+      return ftruncate(journal->file, journal->size) ? errno : failed;
     }
     while (parts && (size_t)written >= part->iov_len) {
       written -= (ssize_t)part->iov_len;
@@ -80,10 +84,11 @@ static int write_all(int file, struct iovec *part, int parts)
     part->iov_base = (char *)part->iov_base + written;
     part->iov_len -= (size_t)written;
   }
+  journal->size += whole;
   return 0;
 }
 
-static int write_head(int file, const char *identity)
+static int write_head(struct gx_journal *journal, const char *identity)
 {
   struct gx_journal_head head = {.magic = GX_JOURNAL_MAGIC, .length = strlen(identity)};
   size_t room = (head.length + 7) / 8 * 8;
@@ -92,7 +97,7 @@ static int write_head(int file, const char *identity)
   memcpy(text, identity, head.length);
   head.sum = gx_checksum(gx_checksum(GX_CHECKSUM_START, &head.length, sizeof head.length), text, room);
   struct iovec part[] = {{&head, sizeof head}, {text, room}};
-  int failed = write_all(file, part, 2);
+  int failed = write_all(journal, part, 2);
   free(text);
   return failed;
 }
@@ -121,7 +126,7 @@ struct gx_journal *gx_journal_create(const char *directory, const char *identity
   }
   *journal = (struct gx_journal){.path = path, .errors = errors, .empty = true};
   journal->file = open_first_free(journal, directory, room);
-  int failed = journal->file < 0 ? errno : write_head(journal->file, identity);
+  int failed = journal->file < 0 ? errno : write_head(journal, identity);
   if (failed) {
     say(journal, strerror(failed));
     if (journal->file >= 0) {
@@ -152,10 +157,11 @@ int gx_journal_append(struct gx_journal *journal, size_t index, const struct gx_
   body.result.history.budget = NULL;
   body.result.spectra.time = body.result.spectra.rms = NULL;
   size_t samples = history->samples, lines = spectra->samples;
+  uint64_t packed[GX_PACKING_MOST(GX_JOURNAL_BODY)];
   struct gx_journal_record record = {.magic = GX_JOURNAL_RECORD_MAGIC, .index = index, .sum = GX_CHECKSUM_START};
   struct iovec part[] = {
       {&record, sizeof record},
-      {&body, sizeof body},
+      {packed, 8 * gx_packing_pack(&body, GX_JOURNAL_BODY, packed)},
       {history->sample, samples * sizeof *history->sample},
       {history->probe, body.probes * samples * sizeof *history->probe},
       {history->budget, body.budgets * samples * sizeof *history->budget},
@@ -169,7 +175,7 @@ int gx_journal_append(struct gx_journal *journal, size_t index, const struct gx_
   }
   record.own = gx_checksum(GX_CHECKSUM_START, &record, offsetof(struct gx_journal_record, own));
   pthread_mutex_lock(&journal->lock);
-  int failed = journal->broken ? journal->broken : write_all(journal->file, part, PARTS);
+  int failed = journal->broken ? journal->broken : write_all(journal, part, PARTS);
   journal->dirty = true;
   if (!failed) journal->empty = false;
   pthread_mutex_unlock(&journal->lock);
@@ -186,8 +192,8 @@ int gx_journal_close(struct gx_journal *journal)
     pthread_mutex_unlock(&journal->lock);
     pthread_join(journal->flusher, NULL);
   }
-  if (journal->empty) unlink(journal->path);
   int failed = flush(journal->file);
+  if (journal->empty) unlink(journal->path);
   if (!failed) failed = journal->broken;
   if (close(journal->file) && !failed) failed = errno;
   if (failed) say(journal, strerror(failed));

@@ -12,6 +12,9 @@
 
 #include <gridcross/study.h>
 
+#include "packing.h"
+#include "pages.h"
+
 /* First of a journal: its head and, in whole words, the text of an identity. */
 struct gx_journal_head {
   uint64_t magic;
@@ -31,7 +34,8 @@ struct gx_journal_record {
 #define GX_JOURNAL_MAGIC        UINT64_C(0x0a314c4e524a5847) /* "GXJRNL1\n" where words begin with their low byte */
 #define GX_JOURNAL_RECORD_MAGIC UINT64_C(0x65736163beefcafe)
 
-/* What follows: this, then of the history sample, probe and budget, then of the spectra time and rms, where there are any. */
+/* What follows: this, packed (packing.h), then of the history sample, probe and budget, then of the spectra time and rms, where there are
+ * any. */
 struct gx_journal_body {
   uint64_t probes, budgets; /* whether there are any */
   struct gx_result result;  /* without pointers */
@@ -39,13 +43,14 @@ struct gx_journal_body {
 _Static_assert(sizeof(struct gx_journal_body) % 8 == 0 && sizeof(struct gx_sample) % 8 == 0 && sizeof(struct gx_probe) % 8 == 0 &&
                    sizeof(struct gx_budget_values) % 8 == 0,
                "checksums go by words");
+enum { GX_JOURNAL_BODY = sizeof(struct gx_journal_body) / 8 }; /* words */
 
 struct gx_journal;
 
 /* A new journal under the first number that is free. errors: borrowed until it is closed. NULL after a message. */
 struct gx_journal *gx_journal_create(const char *directory, const char *identity, FILE *errors);
 /* Adds a record, which then no kill undoes; flushed to disk within about a second. By any thread. Returns 0, or -1 after a message:
- * then the journal is as it was, and can be used again. */
+ * then the journal is as it was, and can be used again, unless its file was removed, which is found out when it is flushed. */
 int gx_journal_append(struct gx_journal *journal, size_t index, const struct gx_result *result);
 /* Flushes it to disk; one without records is removed. Returns 0, or -1 after a message. */
 int gx_journal_close(struct gx_journal *journal);
@@ -56,7 +61,8 @@ int gx_journal_close(struct gx_journal *journal);
 char *gx_journal_scan_identity(int file);
 /* Tells of every whole record, in order. Returns 0, or -1 when it cannot be read. */
 int gx_journal_scan(int file, void (*found)(void *context, size_t index, uint64_t offset), void *context);
-/* The result of a whole record, freed by gx_case_free. Returns 0, or -1 when it is damaged, cannot be read, or memory runs out. */
-int gx_journal_scan_result(int file, uint64_t offset, struct gx_result *result);
+/* The result of a whole record, freed by gx_case_free. pages: of the file, NULL: none. Returns 0, or -1 when it is damaged, cannot be read,
+ * or memory runs out. */
+int gx_journal_scan_result(int file, struct gx_pages *pages, uint64_t offset, struct gx_result *result);
 
 #endif

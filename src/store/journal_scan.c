@@ -156,14 +156,13 @@ static bool is_sound(const struct gx_journal_body *body)
 }
 
 /* What follows a record's head as a result. */
-static int unpack(const char *bytes, size_t length, struct gx_result *result)
+static int unpack(const uint64_t *words, size_t count, struct gx_result *result)
 {
   struct gx_journal_body body;
-  if (length < sizeof body) return -1;
-  memcpy(&body, bytes, sizeof body);
-  if (!is_sound(&body)) return -1;
-  const char *at = bytes + sizeof body;
-  size_t left = length - sizeof body, samples = body.result.history.samples, lines = body.result.spectra.samples;
+  const size_t packed = gx_packing_unpack(words, count, &body, GX_JOURNAL_BODY);
+  if (!packed || !is_sound(&body)) return -1;
+  const char *at = (const char *)(words + packed);
+  size_t left = 8 * (count - packed), samples = body.result.history.samples, lines = body.result.spectra.samples;
   *result = body.result;
   struct gx_history *history = &result->history;
   struct gx_spectra *spectra = &result->spectra;
@@ -178,36 +177,19 @@ static int unpack(const char *bytes, size_t length, struct gx_result *result)
   return -1;
 }
 
-/* Bytes from an offset, as many as there are up to a limit; less than 0: it cannot be read. */
-static ssize_t read_some(int file, uint64_t offset, void *to, size_t most)
+/* Most records have neither history nor spectra, and need no memory. */
+int gx_journal_scan_result(int file, struct gx_pages *pages, uint64_t offset, struct gx_result *result)
 {
-  ssize_t got;
-  do got = pread(file, to, most, (off_t)offset);
-  while (got < 0 && errno == EINTR);
-  return got;
-}
-
-/* Most records have neither history nor spectra: one reading has all of them. */
-int gx_journal_scan_result(int file, uint64_t offset, struct gx_result *result)
-{
-  struct {
-    struct gx_journal_record record;
-    struct gx_journal_body body;
-  } start;
-  ssize_t got = read_some(file, offset, &start, sizeof start);
-  if (got < (ssize_t)sizeof start.record) return -1;
-  const struct gx_journal_record record = start.record;
-  uint64_t size = (uint64_t)got - sizeof record;
-  char *bytes = (char *)&start.body, *longer = NULL;
-  if (record.own != gx_checksum(GX_CHECKSUM_START, &record, offsetof(struct gx_journal_record, own)) || record.length % 8)
+  struct gx_journal_record record;
+  uint64_t few[GX_PACKING_MOST(GX_JOURNAL_BODY)], size, *words = few;
+  if (gx_pages_read(pages, file, offset, &record, sizeof record) ||
+      record.own != gx_checksum(GX_CHECKSUM_START, &record, offsetof(struct gx_journal_record, own)) || record.length % 8)
     return -1;
-  if (record.length > size) {
-    if (measure(file, &size) || record.length > size || !(longer = malloc((size_t)record.length))) return -1;
-    bytes = longer;
-  }
-  int failed = (longer && read_at(file, offset + sizeof record, bytes, (size_t)record.length)) ||
-               gx_checksum(GX_CHECKSUM_START, bytes, (size_t)record.length) != record.sum;
-  if (!failed) failed = unpack(bytes, (size_t)record.length, result);
-  free(longer);
+  if (record.length > sizeof few && (measure(file, &size) || record.length > size || !(words = malloc((size_t)record.length))))
+    return -1;
+  int failed = gx_pages_read(pages, file, offset + sizeof record, words, (size_t)record.length) ||
+               gx_checksum(GX_CHECKSUM_START, words, (size_t)record.length) != record.sum ||
+               unpack(words, (size_t)record.length / 8, result);
+  if (words != few) free(words);
   return failed ? -1 : 0;
 }

@@ -18,6 +18,7 @@ struct gx_journals {
   size_t count, room;
   char **path; /* [count], owned */
   int *file;   /* [count] descriptors, -1: not open; owned */
+  struct gx_pages *pages;
 };
 
 static bool is_journal(const char *name)
@@ -54,7 +55,8 @@ static struct gx_journals *list(const char *directory, FILE *errors)
     free(journals);
     return NULL;
   }
-  *journals = (struct gx_journals){.directory = directory, .errors = errors};
+  *journals =
+      (struct gx_journals){.directory = directory, .errors = errors, .pages = gx_pages_create()}; /* without pages: slower */
   int failed = 0;
   for (struct dirent *entry; !failed && (entry = readdir(stream));)
     if (is_journal(entry->d_name)) failed = add(journals, entry->d_name);
@@ -64,6 +66,14 @@ static struct gx_journals *list(const char *directory, FILE *errors)
   return NULL;
 }
 
+static void close_one(struct gx_journals *journals, size_t i)
+{
+  if (journals->file[i] < 0) return;
+  gx_pages_forget(journals->pages, journals->file[i]);
+  close(journals->file[i]);
+  journals->file[i] = -1;
+}
+
 /* A descriptor, or -1 with errno. */
 static int open_one(struct gx_journals *journals, size_t i)
 {
@@ -71,17 +81,14 @@ static int open_one(struct gx_journals *journals, size_t i)
   for (int tries = 0; tries < 2; tries++) {
     journals->file[i] = open(journals->path[i], O_RDONLY | O_CLOEXEC);
     if (journals->file[i] >= 0 || (errno != EMFILE && errno != ENFILE)) break;
-    for (size_t k = 0; k < journals->count; k++) {
-      if (journals->file[k] >= 0) close(journals->file[k]);
-      journals->file[k] = -1;
-    }
+    for (size_t k = 0; k < journals->count; k++) close_one(journals, k);
   }
   return journals->file[i];
 }
 
 static void forget(struct gx_journals *journals, size_t i)
 {
-  if (journals->file[i] >= 0) close(journals->file[i]);
+  close_one(journals, i);
   free(journals->path[i]);
   journals->count--;
   journals->path[i] = journals->path[journals->count];
@@ -183,7 +190,7 @@ int gx_journals_result(struct gx_journals *journals, size_t journal, uint64_t of
 {
   int file = open_one(journals, journal);
   if (file < 0) return gx_assembly_say(journals->errors, journals->path[journal]);
-  if (!gx_journal_scan_result(file, offset, result)) return 0;
+  if (!gx_journal_scan_result(file, journals->pages, offset, result)) return 0;
   fprintf(journals->errors, "%s: cannot be read\n", journals->path[journal]);
   return -1;
 }
@@ -197,6 +204,7 @@ void gx_journals_close(struct gx_journals *journals)
 {
   if (!journals) return;
   while (journals->count) forget(journals, journals->count - 1);
+  gx_pages_free(journals->pages);
   free(journals->path);
   free(journals->file);
   free(journals);

@@ -208,7 +208,7 @@ class Run(Case):
             resource.setrlimit(resource.RLIMIT_FSIZE, (most, most))
 
         self.call("run", "small.yaml", "-o", "whole", "-q")
-        err = self.call("run", "small.yaml", code=1, preexec_fn=lambda: limit(8192)).stderr
+        err = self.call("run", "small.yaml", code=1, preexec_fn=lambda: limit(4096)).stderr
         self.assertIn(".journal-1.partial: File too large", err)
         kept = int(re.search(r"(\d+) of 12 cases are done and kept", err)[1])
         self.assertGreater(kept, 0)

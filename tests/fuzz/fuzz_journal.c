@@ -15,7 +15,7 @@ static void take(void *context, size_t index, uint64_t offset)
 {
   struct gx_result result;
   (void)context, (void)index;
-  if (gx_journal_scan_result(file, offset, &result)) return;
+  if (gx_journal_scan_result(file, NULL, offset, &result)) return;
   struct gx_table *table = gx_study_table_history(&result);
   gx_table_free(table);
   gx_case_free(&result);
