@@ -76,7 +76,9 @@ struct gx_result {
   double restitution;                        /* of two bodies that have parted; NaN: not so */
   double reference[GX_QUANTITIES][GX_NORMS]; /* final state less that of dt / output.reference; NaN: not asked */
   struct gx_budget_values budget;            /* over the steps that output.budget names; NaN: not asked */
-  double seconds;              /* of processor time in steps, all threads, less measures; NaN: lost in their noise */
+  /* Of processor time in steps, all threads, less measures; of a few steps of few particles, which take less than that takes to read, of
+   * time on the wall. NaN: lost in the noise of the measures. */
+  double seconds;
   double ns_per_particle_step; /* NaN: no step was taken, or no seconds */
   struct gx_history history;
   struct gx_spectra spectra;

@@ -6,16 +6,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include <gsl/gsl_statistics_double.h>
 
-#include "../core/team.h"
 #include "../measures/restitution.h"
 #include "history.h"
 #include "kept.h"
 #include "simulation_plan.h"
 #include "stable_dt.h"
+#include "stopwatch.h"
 #include "watch.h"
 
 struct run {
@@ -38,25 +37,12 @@ struct run {
   bool summed, compensated; /* time.accumulate; neither: product */
   double time, lost;        /* s; lost: what compensated summation carries */
   double kinetic_limit;     /* J */
-  double samples, timed;    /* taken; of those after the first few, whose cost was read from the clock */
-  double timed_seconds;     /* that these took */
-  double least_seconds;     /* that one of them took */
-  double observing;         /* s of it for the first few samples, jumps, spectra, frequency, budgets, snapshots and checkpoints */
-  double began;             /* s, when the steps did; earlier for those taken before a checkpoint */
+  struct gx_stopwatch stopwatch;
 };
 
 static bool is_cancelled(const struct gx_case_means *means)
 {
   return means->cancel && atomic_load_explicit(means->cancel, memory_order_relaxed);
-}
-
-/* Of processor time that this thread and its team have worked: other cases, other programs and waiting for each other do not
- * count. */
-static double seconds_now(const struct run *run)
-{
-  struct timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec + gx_team_seconds(run->means.team);
 }
 
 static enum gx_measure_level level_of(const struct gx_case *one)
@@ -100,6 +86,7 @@ static enum gx_status prepare(struct run *run, const struct gx_case *one, double
   GX_TRY(gx_simulation_build(simulation, outcome));
   GX_TRY(gx_kept_refuse(simulation, one, outcome));
   run->level = level_of(one);
+  run->stopwatch = gx_stopwatch_of(run->means.team, simulation->steps * (double)simulation->particles->n);
   run->history_every = (double)one->value[GX_OUTPUT_HISTORIES].integer;
   run->spectra_every = (double)one->value[GX_OUTPUT_SPECTRA].integer;
   run->frequency_every = (double)one->value[GX_OUTPUT_FREQUENCY].integer;
@@ -141,40 +128,6 @@ static enum gx_status prepare(struct run *run, const struct gx_case *one, double
   return GX_OK;
 }
 
-enum { FIRST_SAMPLES = 16 };
-
-/* After the first samples, which also pay for memory that is touched for the first time, the clock is read at some only. */
-static bool is_timed(double samples)
-{
-  return samples < FIRST_SAMPLES || fmod(samples, FIRST_SAMPLES) == 0;
-}
-
-/* A system may take longer to say how much processor time was used than a sample takes, and slows down what comes after. Samples are
- * timed by the clock on the wall unless threads share their work. */
-static double sample_clock(const struct run *run, bool first)
-{
-  struct timespec now;
-  if (first || run->means.team) return seconds_now(run);
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-/* One that took several times the least has been interrupted; one that took no time, between the two readings before it. */
-static void count_sample(struct run *run, bool first, double seconds)
-{
-  if (first) run->observing += seconds;
-  if (first || !(seconds > 0)) return;
-  if (run->timed == 0 || seconds < run->least_seconds) run->least_seconds = seconds;
-  if (seconds > 4 * run->least_seconds) return;
-  run->timed_seconds += seconds;
-  run->timed++;
-}
-
-static double measuring_seconds(const struct run *run)
-{
-  return run->observing + (run->timed > 0 ? run->timed_seconds * (run->samples - FIRST_SAMPLES) / run->timed : 0);
-}
-
 static bool is_due(double every, double step)
 {
   return every > 0 && fmod(step, every) == 0;
@@ -183,18 +136,18 @@ static bool is_due(double every, double step)
 static void take_spectrum(struct run *run)
 {
   struct gx_spectra *spectra = &run->result->spectra;
-  double before = seconds_now(run);
+  const double before = gx_stopwatch_now(&run->stopwatch);
   spectra->time[spectra->samples] = run->time;
   gx_spectrum_take(run->spectrum, run->measure, spectra->rms + spectra->samples * GX_QUANTITIES * spectra->bins);
   spectra->samples++;
-  run->observing += seconds_now(run) - before;
+  gx_stopwatch_observed(&run->stopwatch, before);
 }
 
 static enum gx_status show(struct run *run, double step)
 {
-  double before = seconds_now(run);
+  const double before = gx_stopwatch_now(&run->stopwatch);
   enum gx_status status = gx_watch_show(&run->watch, step, run->time, run->simulation.dt, &run->result->outcome);
-  run->observing += seconds_now(run) - before;
+  gx_stopwatch_observed(&run->stopwatch, before);
   return status;
 }
 
@@ -211,10 +164,10 @@ static enum gx_status take_budget(struct run *run, double step)
   run->budgeted = (struct gx_budget_values){.time = NAN};
   for (int i = 0; i < GX_BUDGET_ENTRIES; i++) run->budgeted.value[i] = NAN;
   if (!is_budgeted(run, step)) return GX_OK;
-  double before = seconds_now(run);
+  const double before = gx_stopwatch_now(&run->stopwatch);
   if (gx_budget_take(run->budget, run->time, simulation->dt, &run->budgeted))
     return gx_status_set(&run->result->outcome, GX_FAILED, -1, "out of memory for the budget");
-  run->observing += seconds_now(run) - before;
+  gx_stopwatch_observed(&run->stopwatch, before);
   return GX_OK;
 }
 
@@ -239,11 +192,10 @@ static enum gx_status take_sample(struct run *run, double step)
   bool shown = gx_watch_is_due(&run->watch, step, last);
   if (run->level == GX_MEASURE_FINAL && !last && !kept && !transformed && !shown) return GX_OK;
   bool reused = gx_stepper_starts_accelerated(run->stepper); /* by the next step: not a cost of measuring */
-  bool timed = is_timed(run->samples), first = run->samples++ < FIRST_SAMPLES;
   if (reused) GX_TRY(gx_stepper_accelerate(run->stepper, run->time));
-  double reading = timed && !first ? sample_clock(run, false) : 0, before = timed ? sample_clock(run, first) : 0;
+  const struct gx_stopwatch_sample taken = gx_stopwatch_sample_begin(&run->stopwatch);
   GX_TRY(gx_measure_take(run->measure, run->stepper, run->time, simulation->dt));
-  if (timed) count_sample(run, first, sample_clock(run, first) - before - (first ? 0 : before - reading));
+  gx_stopwatch_sample_end(&run->stopwatch, &taken);
   GX_TRY(refuse_nonsense(run));
   struct gx_history *history = &run->result->history;
   if (kept && history->probe) history->probe[history->samples] = *gx_measure_probe(run->measure);
@@ -256,9 +208,9 @@ static enum gx_status take_sample(struct run *run, double step)
 static void sample_frequency(struct run *run, double step)
 {
   if (!is_due(run->frequency_every, step)) return;
-  double before = seconds_now(run);
+  const double before = gx_stopwatch_now(&run->stopwatch);
   gx_frequency_add(&run->frequency, gx_frequency_project(run->simulation.space));
-  run->observing += seconds_now(run) - before;
+  gx_stopwatch_observed(&run->stopwatch, before);
 }
 
 static void advance_time(struct run *run, double step)
@@ -277,9 +229,9 @@ static void advance_time(struct run *run, double step)
 
 static void measure_jumps(struct run *run)
 {
-  double before = seconds_now(run);
+  const double before = gx_stopwatch_now(&run->stopwatch);
   gx_measure_step(run->measure, run->simulation.dt);
-  run->observing += seconds_now(run) - before;
+  gx_stopwatch_observed(&run->stopwatch, before);
 }
 
 /* Of the nodes by row sums, which bound what the full mass matrix gives but overstate waves of few cells: where it matters that
@@ -301,23 +253,16 @@ static double kinetic_energy(const struct run *run)
 static void image_run(void *context, struct gx_image *image)
 {
   struct run *run = context;
-  double spent = seconds_now(run) - run->began;
   GX_IMAGE(image, run->result->steps);
   GX_IMAGE(image, run->result->time);
   GX_IMAGE(image, run->time);
   GX_IMAGE(image, run->lost);
   GX_IMAGE(image, run->frequency);
-  GX_IMAGE(image, run->samples);
-  GX_IMAGE(image, run->timed);
-  GX_IMAGE(image, run->timed_seconds);
-  GX_IMAGE(image, run->least_seconds);
-  GX_IMAGE(image, run->observing);
-  GX_IMAGE(image, spent);
+  gx_stopwatch_image(&run->stopwatch, image);
   gx_history_image(run->result, image);
   gx_measure_image(run->measure, image);
   if (run->budget) gx_budget_image(run->budget, image);
   if (gx_stepper_image(run->stepper, image) != GX_OK) image->failed = true;
-  if (image->loading) run->began = seconds_now(run) - spent;
 }
 
 static struct gx_checkpoint checkpoint_of(struct run *run)
@@ -330,7 +275,7 @@ static enum gx_status begin_steps(struct run *run)
 {
   const struct gx_checkpoint checkpoint = checkpoint_of(run);
   bool loaded;
-  run->began = seconds_now(run);
+  gx_stopwatch_begin(&run->stopwatch);
   for (int i = 0; i < GX_BUDGET_ENTRIES; i++) run->budgeted.value[i] = NAN;
   GX_TRY(gx_watch_restore(&run->watch, &checkpoint, &loaded, &run->result->outcome));
   if (loaded) return GX_OK;
@@ -343,9 +288,9 @@ static enum gx_status keep(struct run *run, double step)
 {
   if (run->watch.keep_every == 0) return GX_OK;
   const struct gx_checkpoint checkpoint = checkpoint_of(run);
-  double before = seconds_now(run);
+  const double before = gx_stopwatch_now(&run->stopwatch);
   enum gx_status status = gx_watch_keep(&run->watch, &checkpoint, step == run->simulation.steps, &run->result->outcome);
-  run->observing += seconds_now(run) - before;
+  gx_stopwatch_observed(&run->stopwatch, before);
   return status;
 }
 
@@ -378,8 +323,7 @@ static enum gx_status march(struct run *run)
 {
   struct gx_result *result = run->result;
   enum gx_status status = take_steps(run);
-  const double spent = seconds_now(run) - run->began - measuring_seconds(run);
-  result->seconds = spent > 0 ? spent : NAN;
+  result->seconds = gx_stopwatch_seconds(&run->stopwatch);
   if (result->steps > 0)
     result->ns_per_particle_step = 1e9 * result->seconds / (result->steps * (double)run->simulation.particles->n);
   return status;
