@@ -279,8 +279,8 @@ static int assemble(struct gx_store *store, const struct gx_store_run *run)
     failed = -1;
   }
   if (!failed) failed = assemble_from(store, journals, &places, run);
-  if (!failed) gx_journals_remove(journals);
   if (!failed) failed = gx_recorder_tidy(store->directory, store->study, store->errors);
+  if (!failed) gx_journals_remove(journals); /* last: as long as there is one, --resume ends the work */
   gx_journals_close(journals);
   free(places.place);
   return failed;

@@ -75,31 +75,45 @@ static enum gx_plot_status files_check(const struct files *files, FILE *errors)
   return GX_PLOT_REFUSED;
 }
 
-static int finish(FILE *out, const char *path, FILE *errors)
+/* Beside its place, so that a full disk leaves an older one. Returns it, owned by the caller; NULL after a message. */
+static char *write_beside(const char *path, const struct files *files, const struct gx_figure *figure, FILE *errors)
 {
-  int failed = fflush(out) || ferror(out);
-  if (fclose(out) || failed) {
-    fprintf(errors, "gridcross: cannot write %s: %s\n", path, strerror(errno));
-    return -1;
+  const size_t room = strlen(path) + sizeof ".partial";
+  char *partial = malloc(room);
+  if (!partial) {
+    fputs("gridcross: out of memory\n", errors);
+    return NULL;
   }
-  return 0;
-}
-
-static FILE *start(const char *path, FILE *errors)
-{
-  FILE *out = fopen(path, "wb");
-  if (!out) fprintf(errors, "gridcross: cannot write %s: %s\n", path, strerror(errno));
-  return out;
+  snprintf(partial, room, "%s.partial", path);
+  FILE *out = fopen(partial, "wb");
+  if (out && path == files->script)
+    gx_script_write(figure, files->stem, files->ending, out);
+  else if (out)
+    gx_csv_write(figure->data, out);
+  int failed = !out || fflush(out) || ferror(out);
+  if (out && fclose(out)) failed = 1;
+  if (!failed) return partial;
+  fprintf(errors, "gridcross: cannot write %s: %s\n", path, strerror(errno));
+  if (out) unlink(partial);
+  free(partial);
+  return NULL;
 }
 
 static int files_write(const struct files *files, const struct gx_figure *figure, FILE *errors)
 {
-  FILE *out = start(files->script, errors);
-  if (!out) return -1;
-  gx_script_write(figure, files->stem, files->ending, out);
-  if (finish(out, files->script, errors) || !(out = start(files->data, errors))) return -1;
-  gx_csv_write(figure->data, out);
-  return finish(out, files->data, errors);
+  const char *const path[2] = {files->script, files->data};
+  char *partial[2] = {NULL, NULL};
+  int failed = 0;
+  for (int i = 0; i < 2 && !failed; i++) failed = !(partial[i] = write_beside(path[i], files, figure, errors));
+  for (int i = 0; i < 2; i++) {
+    if (partial[i] && !failed && rename(partial[i], path[i])) {
+      fprintf(errors, "gridcross: cannot write %s: %s\n", path[i], strerror(errno));
+      failed = 1;
+    }
+    if (partial[i] && failed) unlink(partial[i]);
+    free(partial[i]);
+  }
+  return failed;
 }
 
 enum gx_plot_status gx_figure_draw(const struct gx_figure *figure, const char *output, FILE *errors)
@@ -112,6 +126,11 @@ enum gx_plot_status gx_figure_draw(const struct gx_figure *figure, const char *o
     unlink(files.image); /* an older one would not fit the data beside it */
     if (gx_gnuplot_run(*files.folder ? files.folder : ".", files.beside, errors)) {
       fprintf(errors, "; %s and %s are written\n", files.script, files.data);
+      status = GX_PLOT_FAILED;
+    } else if (!gx_gnuplot_is_whole(files.image)) { /* gnuplot does not say so */
+      fprintf(errors, "gridcross: %s could not be written whole: is the disk full?; %s and %s are written\n", files.image,
+              files.script, files.data);
+      unlink(files.image);
       status = GX_PLOT_FAILED;
     } else if (!strcmp(files.ending, "pdf") && gx_gnuplot_undate(files.image)) {
       fprintf(errors, "gridcross: cannot write %s: %s\n", files.image, strerror(errno));

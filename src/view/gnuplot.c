@@ -111,6 +111,19 @@ int gx_gnuplot_run(const char *folder, const char *script, FILE *errors)
   return -1;
 }
 
+bool gx_gnuplot_is_whole(const char *image)
+{
+  static const char *const last[] = {"</svg>", "IEND", "%%EOF"}; /* in the last bytes of SVG, PNG and PDF */
+  char tail[16] = "";
+  FILE *file = fopen(image, "rb");
+  size_t length = file && !fseek(file, -(long)sizeof tail, SEEK_END) ? fread(tail, 1, sizeof tail, file) : 0;
+  if (file) fclose(file);
+  for (size_t i = 0; i < sizeof last / sizeof *last; i++)
+    for (size_t at = 0; at + strlen(last[i]) <= length; at++)
+      if (!memcmp(tail + at, last[i], strlen(last[i]))) return true;
+  return false;
+}
+
 int gx_gnuplot_undate(const char *pdf)
 {
   static const char entry[] = "/CreationDate (D:";

@@ -3,6 +3,7 @@
 #ifndef GRIDCROSS_VIEW_GNUPLOT_H
 #define GRIDCROSS_VIEW_GNUPLOT_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
 
@@ -14,6 +15,8 @@ void gx_gnuplot_text(const char *text, FILE *out);
 void gx_gnuplot_part(const char *text, size_t bytes, FILE *out);
 /* Has gnuplot run a script in its folder. Returns 0, or -1 after a message without its line end. */
 int gx_gnuplot_run(const char *folder, const char *script, FILE *errors);
+/* Whether an SVG, PNG or PDF has its end: gnuplot does not say when the disk is full. */
+bool gx_gnuplot_is_whole(const char *image);
 /* Blanks the date in a PDF, so that equal figures have equal bytes. Returns 0, or -1 when the file cannot be changed. */
 int gx_gnuplot_undate(const char *pdf);
 

@@ -396,6 +396,18 @@ class Messages(Case):
         (fake / "gnuplot").chmod(0o755)
         self.assertIn("could not draw", self.plot("-o", "fig.svg", code=1, env={"PATH": str(fake)}).stderr)
 
+    def test_an_image_cut_short_is_no_figure(self):
+        """gnuplot ends well on a full disk."""
+        fake = self.dir / "bin"
+        fake.mkdir()
+        (fake / "gnuplot").write_text("#!/bin/sh\nfor image in fig.svg fig.png fig.pdf; do echo '<svg><path/>' > $image; done\n")
+        (fake / "gnuplot").chmod(0o755)
+        for ending in ("svg", "png", "pdf"):
+            with self.subTest(ending=ending):
+                err = self.plot("-o", f"fig.{ending}", code=1, env={"PATH": f"{fake}:/usr/bin:/bin"}).stderr
+                self.assertIn(f"fig.{ending} could not be written whole", err)
+                self.assertFalse((self.dir / f"fig.{ending}").exists())
+
     def test_unwritable(self):
         self.assertIn("cannot write none/fig.gp", self.plot("-o", "none/fig.svg", code=1).stderr)
 

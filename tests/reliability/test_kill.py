@@ -3,6 +3,7 @@
 
 usage: test_kill.py GRIDCROSS [--kills N] [--seed N] [unittest arguments]"""
 import argparse
+import io
 import pathlib
 import random
 import re
@@ -14,6 +15,11 @@ import tempfile
 import time
 import unittest
 
+try:
+    import h5py
+except ImportError:  # another Python than the system's
+    h5py = None
+
 parser = argparse.ArgumentParser()
 parser.add_argument("gridcross", type=pathlib.Path)
 parser.add_argument("--kills", type=int, default=24)
@@ -21,13 +27,13 @@ parser.add_argument("--seed", type=int, default=random.randrange(10**6))
 OPTIONS, REST = parser.parse_known_args()
 PROGRAM = OPTIONS.gridcross.resolve()
 
-# Cases of unequal length, with history, spectra and snapshots, that end in several ways.
+# Cases of unequal length, with history, spectra, snapshots and checkpoints, that end in several ways.
 STUDY = """title: killed
 problem: {name: bar-neo-hookean}
 mesh: {cells: [4, 8, 12, 16, 24, 32]}
 method: {space: [standard, moving-mesh], degree: [1, 2]}
 time: {cfl: [0.1, 0.4, 3], periods: 1}
-output: {histories: 8, spectra: 64, snapshots: 300}
+output: {histories: 8, spectra: 64, snapshots: 300, checkpoint: 150}
 """
 CASES = 72
 LONG = """problem: {name: bar-linear}
@@ -87,53 +93,86 @@ class Case(unittest.TestCase):
 
 class Kill(Case):
     def test_a_run_killed_at_random_instants_ends_as_an_undisturbed_one(self):
-        chance = random.Random(OPTIONS.seed)
-        whole, seconds = self.undisturbed("-j", "2")
-        kills = finished = kept = 0
-        while kills < OPTIONS.kills:
-            shutil.rmtree(self.dir / "killed", ignore_errors=True)
+        self.chance = random.Random(OPTIONS.seed)
+        self.whole, self.seconds = self.undisturbed("-j", "2")
+        for name, content in self.whole.items():
+            if name.endswith(".h5"):
+                self.open_all(name, content)
+        self.kills = dict.fromkeys(("before the first journal", "under way", "while assembling", "after the end"), 0)
+        self.kept = 0
+        while sum(self.kills.values()) < OPTIONS.kills:
+            self.kill_one_study()
+        print(f"{OPTIONS.kills} kills, seed {OPTIONS.seed}:", ", ".join(f"{n} {phase}" for phase, n in self.kills.items()))
+        print(f"{self.kept} finished cases seen in journals")
+        if OPTIONS.kills >= 200:
+            self.assertGreater(min(self.kills.values()), 0)
+
+    def open_all(self, name, content):
+        """Every file that a kill leaves is one of these, to the byte."""
+        if not h5py:
+            return
+        numbers = []
+        with h5py.File(io.BytesIO(content)) as file:
+            file.visititems(lambda _, item: numbers.append(item[()]) if isinstance(item, h5py.Dataset) else None)
+        self.assertGreater(len(numbers), 0, name)
+
+    def kill_one_study(self):
+        """Again and again, until it has ended or is let go on."""
+        shutil.rmtree(self.dir / "killed", ignore_errors=True)
+        older = None
+        if self.chance.random() < 0.3:
             self.call("run", "study.yaml", "-o", "killed", "--set", "mesh.cells=4", "--set", "time.cfl=3", "-q")
-            older = self.bytes_of("killed") if chance.random() < 0.3 else None
-            if not older:
-                shutil.rmtree(self.dir / "killed")
-            process, resume = self.start("run", "study.yaml", "-o", "killed", "-q", "-j", "2"), []
-            while kills < OPTIONS.kills:
-                time.sleep(chance.uniform(0, 1.1 * seconds) * chance.choice([0.1, 0.3, 1]))
-                process.kill()
-                process.communicate()
-                kills += 1
-                with self.subTest(seed=OPTIONS.seed, kill=kills):
-                    now = self.names("killed") if (self.dir / "killed").exists() else []
-                    if "study.h5" in now:  # the old study or the new one, whole in either case
-                        self.assertIn((self.dir / "killed" / "study.h5").read_bytes(), [whole["study.h5"], older and older["study.h5"]])
-                        self.call("compare", "killed")
-                    before = self.records("killed") if now else 0
-                    kept += before
-                    if before:
-                        self.assertIn("--resume", self.call("run", "study.yaml", "-o", "killed", code=2).stderr)
-                        self.assertEqual(self.records("killed"), before)
-                if process.returncode == 0 or (now and self.bytes_are(whole)):
-                    finished += 1
-                    break
-                if older and not before:
-                    break  # nothing was under way, and --resume refuses the other study
-                if chance.random() < 0.25:
-                    self.resume(whole)
-                    break
-                process = self.start("run", "study.yaml", "-o", "killed", "-q", "-j", "2", "--resume")
-            else:
-                process.kill()
-                process.communicate()
-                if not older or self.records("killed"):
-                    self.resume(whole)
-        print(f"{kills} kills, seed {OPTIONS.seed}: {kept} finished cases seen in journals, {finished} runs had ended before")
+            older = self.bytes_of("killed")
+        process = self.start("run", "study.yaml", "-o", "killed", "-q", "-j", "2")
+        while True:
+            self.wait(process)
+            process.kill()
+            process.communicate()
+            phase, before = self.look(process, older)
+            self.kills[phase] += 1
+            self.kept += before
+            if phase == "after the end" or (older and not before):
+                return  # there is nothing under way, and --resume refuses the other study
+            if sum(self.kills.values()) >= OPTIONS.kills or self.chance.random() < 0.25:
+                return self.resume()
+            process = self.start("run", "study.yaml", "-o", "killed", "-q", "-j", "2", "--resume")
+
+    def wait(self, process):
+        """Up to a random instant of the run, or of its last part, which is short."""
+        if self.chance.random() < 0.3:
+            while process.poll() is None and not (self.dir / "killed" / ".study.h5.partial").exists():
+                time.sleep(0.0005)
+            time.sleep(self.chance.uniform(0, 0.1 * self.seconds))
+        else:
+            time.sleep(self.chance.uniform(0, 1.1 * self.seconds) * self.chance.choice([0.02, 0.3, 1]))
+
+    def look(self, process, older):
+        """Which phase a run was killed in, and how many cases its journals have, after all that is there was found whole."""
+        place = self.dir / "killed"
+        now = self.names("killed") if place.exists() else []
+        with self.subTest(seed=OPTIONS.seed, kills=self.kills):
+            for name in now:
+                if not name.startswith(".") and name not in ("run.json", "timing.csv"):  # the old one or the new one
+                    known = [self.whole.get(name), older and older.get(name)]
+                    self.assertTrue((place / name).read_bytes() in known, name)
+            if "study.h5" in now:
+                self.call("compare", "killed")
+            before = self.records("killed") if now else 0
+            if before:
+                self.assertIn("--resume", self.call("run", "study.yaml", "-o", "killed", code=2).stderr)
+                self.assertEqual(self.records("killed"), before)
+        if process.returncode == 0 or (now and self.bytes_are(self.whole)):
+            return "after the end", before
+        if not any(name.startswith(".journal") for name in now):
+            return "before the first journal", before
+        return "while assembling" if before == CASES else "under way", before
 
     def bytes_are(self, whole):
         return self.is_finished(self.names("killed")) and self.bytes_of("killed") == whole
 
-    def resume(self, whole):
+    def resume(self):
         self.call("run", "study.yaml", "-o", "killed", "-q", "-j", "2", "--resume")
-        self.assertTrue(self.bytes_of("killed") == whole, f"seed {OPTIONS.seed}")
+        self.assertTrue(self.bytes_of("killed") == self.whole, f"seed {OPTIONS.seed}")
 
 
 class Interrupt(Case):
