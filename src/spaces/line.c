@@ -65,6 +65,7 @@ struct gx_line *gx_line_create(struct gx_mesh *mesh)
       .mass = mesh->mass,
       .velocity = mesh->v[0],
       .acceleration = mesh->a[0],
+      .trace = mesh->trace,
   };
   return line;
 }

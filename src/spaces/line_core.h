@@ -316,8 +316,8 @@ PASS static void divide(const struct gx_line_fields *fields, enum gx_line_part p
       for (size_t k = 0; k < GX_LINE_RECORD; k++) STORE(none, from + k * WIDTH);
       STORE(mass, f->mass + i);
     }
-    const vec one = none + 1;
-    share = (vec)((ints)(one / mass) & (mass > none)); /* 0 where there is none */
+    const vec one = none + 1, trace = none + f->trace;
+    share = (vec)((ints)(one / mass) & (mass > trace)); /* 0 where there is none */
     moment = moment * share;
     force = force * share;
     if (part & GX_LINE_MOTION) STORE(moment, f->velocity + i);

@@ -30,6 +30,7 @@ struct gx_line_fields {
   double *record;                         /* [stored + WINDOW][RECORD], zero but within a pass */
   double *scratch;                        /* records of a block of every lane: [LANES][support][BLOCK][RECORD] */
   double *mass, *velocity, *acceleration; /* nodes */
+  double trace;                           /* of mesh.h */
 };
 
 /* What is scattered. */

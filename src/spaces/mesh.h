@@ -26,6 +26,7 @@ struct gx_mesh {
   struct gx_reconstruction *reconstruction; /* NULL: integrals are sums over particles */
   /* nodal fields, [grid.stored]; mass is zero at periodic images, the others are copied there */
   double *mass;                     /* row sums, kg */
+  double trace;                     /* lumped: up to here mass is none but that of round-off in the positions of particles, kg */
   double *v[GX_MAX_DIM];            /* m/s */
   double *a[GX_MAX_DIM];            /* m/s^2 */
   double *u[GX_MAX_DIM];            /* m; moving mesh only */

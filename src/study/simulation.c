@@ -137,6 +137,10 @@ enum gx_status gx_simulation_check(const struct gx_simulation *simulation, struc
                          "%s with %s would not keep momentum: its nodal velocity and its last weights are of two positions; use "
                          "transfer flip with flip 1",
                          grid_velocity, simulation->clock->name);
+  if (simulation->kind->fixed_grid && !options->each_step && !options->apic && (options->pic || options->flip < 1))
+    return gx_status_set(outcome, GX_REFUSED, -1,
+                         "PIC with projection once would not keep momentum on a fixed grid: the velocity that its nodes carry is "
+                         "of earlier weights; use projection each-step, or transfer flip with flip 1");
   if (options->apic && options->reconstructed)
     return gx_status_set(
         outcome, GX_REFUSED, -1,

@@ -120,6 +120,11 @@ static void a_fixed_grid_may_project_once(void **state)
     double error = result.measured.max_error[GX_DISPLACEMENT][GX_INF];
     CHECK(error < 0.3 * 0.02, "%s: error %g of amplitude 0.02", gx_clock_family[k]->name, error);
   }
+  struct gx_case pic = bar("standard", "euler-stress-last"); /* nodes have moved on from the weights of what they carry */
+  case_set(&pic, GX_METHOD_PROJECTION, "once");
+  case_set(&pic, GX_METHOD_TRANSFER, "pic");
+  gx_parameter_resolve(pic.value);
+  assert_int_equal(gx_case_plan(&pic).outcome.status, GX_REFUSED);
 }
 
 static void fast(struct gx_particles *particles, void *context)
