@@ -61,13 +61,10 @@ static double error_of_step(const struct trial *trial)
   return each * (simulation->clock->stages + 1) * turnover(trial);
 }
 
-/* On a fixed grid that projects once PIC takes what the nodes carry by weights that are not those of their velocity. */
 static bool keeps_linear(const struct trial *trial, const int *value)
 {
   const struct gx_space_kind *kind = trial->rig.simulation.kind;
-  const struct gx_space_options *options = &trial->rig.simulation.space_options;
-  const bool flip = !options->pic && options->flip == 1;
-  if (!kind->collocation) return !kind->fixed_grid || options->each_step || flip;
+  if (!kind->collocation) return true;
   return !kind->nodal && value[TRIAL_ENDS] == 0 && value[TRIAL_LAYOUT] == 0;
 }
 

@@ -2,6 +2,8 @@
 /* Building random cases and their twins. */
 #include "trial.h"
 
+#include "spaces/mass_cg.h"
+
 const char *const trial_layouts[] = {"uniform", "gauss", "scattered", NULL};
 const char *const trial_ends[] = {"periodic", "free", "fixed", NULL};
 const char *const trial_grids[] = {"standard", "moving-mesh", NULL};
@@ -221,6 +223,7 @@ enum gx_status trial_build(struct trial *trial, const struct property_choice *ch
   box.initial = at_rest;
   box.inside = trial->view.body > 0 ? is_inside : NULL;
   for (int d = 0; d < GX_MAX_DIM; d++) simulation->problem_options.body.size[d] = trial->view.body;
+  if (trial->view.material) box.material = trial->view.material;
   simulation->problem = &box;
   GX_TRY(gx_simulation_lay_out(simulation, &rig->outcome));
   if (value[TRIAL_LAYOUT] == 2) {
@@ -311,6 +314,8 @@ double trial_sensitivity(const struct trial *plain, const struct property_choice
   view.disturbance = disturbance;
   double distance = trial_run(&twin, choice, value, &view) == GX_OK ? trial_distance(plain, &twin) : NAN;
   trial_free(&twin);
-  const struct gx_clock *clock = plain->rig.simulation.clock;
-  return distance / disturbance * 0x1p-53 * trial_roundings(plain) * value[TRIAL_STEPS] * (clock->stages + 1);
+  const struct gx_simulation *simulation = &plain->rig.simulation;
+  double each = 0x1p-53 * trial_roundings(plain);
+  if (simulation->space_options.consistent && simulation->problem_options.dim > 1) each += GX_MASS_CG_TOLERANCE;
+  return distance / disturbance * each * value[TRIAL_STEPS] * (simulation->clock->stages + 1);
 }

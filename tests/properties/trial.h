@@ -50,10 +50,11 @@ struct trial_view {
   bool mirrored[GX_MAX_DIM];
   int shift[GX_MAX_DIM]; /* whole cells */
   bool shuffled;
-  double disturbance;   /* of everything that particles carry, relative to its size */
-  const char *transfer; /* another one; NULL: that of the case */
-  double flip;          /* with it */
-  double body;          /* edge of a cube in the middle of the box that particles fill; 0: all of it */
+  double disturbance;                 /* of everything that particles carry, relative to its size */
+  const char *transfer;               /* another one; NULL: that of the case */
+  double flip;                        /* with it */
+  double body;                        /* edge of a cube in the middle of the box that particles fill; 0: all of it */
+  const struct gx_material *material; /* another one; NULL: neo-Hookean */
 };
 
 struct trial {
@@ -84,8 +85,9 @@ enum property_verdict trial_judge(const struct trial *trial, enum gx_status stat
 double trial_distance(const struct trial *a, const struct trial *b);
 /* Roundings in sequence behind a particle after a step, at most: sums over a node's particles, over nodes, of weights. */
 double trial_roundings(const struct trial *trial);
-/* What a rounding of 2^-53 in everything that particles carry grows to by the end of a run, measured by a twin that is disturbed by
- * far more. plain: settled after the steps of the case. NAN: the twin did not end. */
+/* What the roundings of a run grow to by its end, and the tolerance of solves with the full mass matrix in 2-D and 3-D: as a disturbance of
+ * everything that particles carry does, measured by a twin that is disturbed by far more. plain: settled after the steps of the case.
+ * NAN: the twin did not end. */
 double trial_sensitivity(const struct trial *plain, const struct property_choice *choice, const int *value);
 
 #endif
