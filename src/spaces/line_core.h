@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The passes, for vectors of WIDTH doubles (8 or 4) and functions of attribute PASS; included once in a file. Whoever includes it
- * gives what differs in how data move: interleave, deinterleave and look_up. No operation on numbers depends on the width. */
+ * gives what differs: whole_below, and how data move, interleave, deinterleave and look_up. No result depends on the width. */
 #include <string.h>
 
 #include "../bases/gimp.h"
@@ -12,33 +12,22 @@
 
 typedef double record __attribute__((vector_size(32)));
 
-/* 1 where the mask is set, else 0 */
-GX_CORE void one_where(const ints *mask, vec *one)
-{
-  const vec ones = (vec){0} + 1;
-  *one = (vec)((ints)ones & *mask);
-}
-
 /* X + u in units of cells, as gx_locate has it. */
 GX_CORE void locate(const bool periodic, const vec *cells, const vec *x, vec *s)
 {
-  vec inside = *x;
-  if (periodic) {
-    const vec near = TO_DOUBLES(TO_INDICES(inside));
-    const ints above = near > inside;
-    vec one;
-    one_where(&above, &one);
-    inside = inside - (near - one);
-  }
-  *s = inside * *cells;
+  vec whole = {0};
+  if (periodic) whole_below(x, &whole);
+  *s = (periodic ? *x - whole : *x) * *cells;
 }
 
-/* Held to [0, last], whatever it was. */
-GX_CORE void hold(indices *index, const indices *last)
+/* Whole cells below, held to [0, last], whatever it was. */
+GX_CORE void hold(const vec *position, const vec *last, vec *cell)
 {
-  const indices past = *index - *last;
-  *index = *index - (past & ~(past >> 31));
-  *index = *index & ~(*index >> 31);
+  const vec none = {0};
+  vec whole, within;
+  whole_below(position, &whole);
+  within = LEAST(whole, *last);
+  *cell = LARGEST(within, none);
 }
 
 /* Of degree 1 to 3 at place r of a cell, D per cell, as the basis has them. */
@@ -111,8 +100,7 @@ GX_CORE bool meets_end(const struct gx_line_fields *f, const int degree, size_t 
 }
 
 struct weigh_scale {
-  vec cells;
-  indices last; /* index of a cell, or of the nearest node */
+  vec cells, last; /* cells of the bar; index of the last cell, or node */
 };
 
 /* Weights of WIDTH particles at p; sets bits of stray where one is. */
@@ -120,16 +108,16 @@ GX_CORE void weigh_some(const struct gx_line_fields *f, const int support, const
                         double high, size_t p, const struct weigh_scale *scale, ints *stray)
 {
   const vec cells = scale->cells;
-  vec X, u, F, s, place, half, S[4], D[4];
+  vec X, u, F, s, cell, place, half, S[4], D[4];
   LOAD(X, f->X + p);
   LOAD(u, f->u + p);
   const vec x = X + u;
   *stray |= ~((x >= low) & (x <= high));
   locate(periodic, &cells, &x, &s);
   const vec rounded = gimp ? s + 0.5 : s;
-  indices first = TO_INDICES(rounded);
-  hold(&first, &scale->last);
-  place = s - TO_DOUBLES(first);
+  hold(&rounded, &scale->last, &cell);
+  const indices first = TO_INDICES(cell);
+  place = s - cell;
   if (gimp) {
     LOAD(half, f->half_length + p);
     if (f->half) {
@@ -156,7 +144,7 @@ GX_CORE bool weigh_all(const struct gx_line_fields *f, const int support, const 
                        double high)
 {
   const size_t n = f->n;
-  const struct weigh_scale scale = {(vec){0} + f->axis->cells, (indices){0} + (f->axis->cells - !gimp)};
+  const struct weigh_scale scale = {(vec){0} + f->axis->cells, (vec){0} + (f->axis->cells - !gimp)};
   ints stray = {0};
   for (size_t p = 0; p < n; p += WIDTH) /* the last ones, whole, perhaps twice */
     weigh_some(f, support, gimp, periodic, low, high, p + WIDTH <= n ? p : n - WIDTH, &scale, &stray);

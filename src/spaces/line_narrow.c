@@ -12,12 +12,18 @@ typedef long long ints __attribute__((vector_size(32)));
 typedef int indices __attribute__((vector_size(16)));
 
 #define TO_INDICES(vector) __builtin_convertvector(vector, indices)
-#define TO_DOUBLES(index)  __builtin_convertvector(index, vec)
 /* a > b ? a : b and a < b ? a : b */
 #define LARGEST(a, b) ((vec)(((ints)(a) & ((a) > (b))) | ((ints)(b) & ~((a) > (b)))))
 #define LEAST(a, b)   ((vec)(((ints)(a) & ((a) < (b))) | ((ints)(b) & ~((a) < (b)))))
 
 #include <string.h>
+
+GX_CORE void whole_below(const vec *x, vec *whole)
+{
+  const vec near = __builtin_convertvector(TO_INDICES(*x), vec), one = (vec){0} + 1;
+  const ints above = near > *x;
+  *whole = near - (vec)((ints)one & above);
+}
 
 /* Of particles h, h + 2, then h + 1, h + 3; each half of a block where the whole has them. */
 GX_CORE void interleave(const vec *mass, const vec *moment, const vec *force, size_t h, double *records)

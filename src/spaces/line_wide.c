@@ -13,9 +13,8 @@ typedef double vec __attribute__((vector_size(64)));
 typedef long long ints __attribute__((vector_size(64)));
 typedef int indices __attribute__((vector_size(32)));
 
-/* Whole numbers of doubles, towards 0, and back. */
+/* Of whole numbers. */
 #define TO_INDICES(vector) ((indices)_mm512_cvttpd_epi32(vector))
-#define TO_DOUBLES(index)  ((vec)_mm512_cvtepi32_pd((__m256i)(index)))
 /* As a > b ? a : b and a < b ? a : b. */
 #define LARGEST(a, b) _mm512_max_pd(a, b)
 #define LEAST(a, b)   _mm512_min_pd(a, b)
@@ -26,6 +25,11 @@ typedef int indices __attribute__((vector_size(32)));
 #include "../bases/gimp.h"
 
 #pragma GCC target("arch=x86-64-v4")
+
+GX_CORE void whole_below(const vec *x, vec *whole)
+{
+  *whole = _mm512_roundscale_pd(*x, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
+}
 
 /* Row s of [m v f f] of particles 0, 2, 4, 6, then 1, 3, 5, 7. */
 GX_CORE void interleave(const vec *mass, const vec *moment, const vec *force, size_t h, double *records)
