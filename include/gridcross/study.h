@@ -119,7 +119,7 @@ struct gx_observer {
   /* Of output.checkpoint, both or neither. Before the first step: loads what was kept, if there is anything. Returns 1 when it did, 0 when
    * there is none, or less than 0 when that fails. */
   int (*restore)(void *watched, const struct gx_checkpoint *checkpoint);
-  /* Every n-th step but the last, after it was shown. Returns 0, or other than 0 when it fails. */
+  /* Every n-th step but the last, after it was shown, and the one that a case is cancelled after. Returns 0, or other than 0 when it fails. */
   int (*keep)(void *watched, const struct gx_checkpoint *checkpoint);
 };
 

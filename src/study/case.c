@@ -37,6 +37,7 @@ struct run {
   bool summed, compensated; /* time.accumulate; neither: product */
   double time, lost;        /* s; lost: what compensated summation carries */
   double kinetic_limit;     /* J */
+  double kept;              /* steps, at the last checkpoint */
   struct gx_stopwatch stopwatch;
 };
 
@@ -278,20 +279,28 @@ static enum gx_status begin_steps(struct run *run)
   gx_stopwatch_begin(&run->stopwatch);
   for (int i = 0; i < GX_BUDGET_ENTRIES; i++) run->budgeted.value[i] = NAN;
   GX_TRY(gx_watch_restore(&run->watch, &checkpoint, &loaded, &run->result->outcome));
+  run->kept = run->result->steps;
   if (loaded) return GX_OK;
   GX_TRY(take_sample(run, 0));
   sample_frequency(run, 0);
   return GX_OK;
 }
 
-static enum gx_status keep(struct run *run, double step)
+static enum gx_status keep(struct run *run)
 {
-  if (run->watch.keep_every == 0) return GX_OK;
   const struct gx_checkpoint checkpoint = checkpoint_of(run);
   const double before = gx_stopwatch_now(&run->stopwatch);
-  enum gx_status status = gx_watch_keep(&run->watch, &checkpoint, step == run->simulation.steps, &run->result->outcome);
+  enum gx_status status = gx_watch_keep(&run->watch, &checkpoint, &run->result->outcome);
   gx_stopwatch_observed(&run->stopwatch, before);
+  run->kept = checkpoint.step;
   return status;
+}
+
+/* Before its last step; no step is lost that was taken since the last checkpoint. */
+static enum gx_status leave(struct run *run)
+{
+  if (run->watch.keep_every > 0 && run->result->steps > run->kept) GX_TRY(keep(run));
+  return gx_status_set(&run->result->outcome, GX_CANCELLED, -1, "cancelled");
 }
 
 static enum gx_status take_steps(struct run *run)
@@ -300,7 +309,7 @@ static enum gx_status take_steps(struct run *run)
   struct gx_result *result = run->result;
   GX_TRY(begin_steps(run));
   for (double step = result->steps + 1; step <= simulation->steps; step++) {
-    if (is_cancelled(&run->means)) return gx_status_set(&result->outcome, GX_CANCELLED, -1, "cancelled");
+    if (is_cancelled(&run->means)) return leave(run);
     GX_TRY(take_budget(run, step));
     GX_TRY(gx_stepper_step(run->stepper, run->time, simulation->dt));
     if (simulation->jumps) measure_jumps(run);
@@ -314,7 +323,7 @@ static enum gx_status take_steps(struct run *run)
                            simulation->problem->exact ? "the exact solution's" : "the energy that there is");
     GX_TRY(take_sample(run, step));
     sample_frequency(run, step);
-    GX_TRY(keep(run, step));
+    if (step < simulation->steps && is_due(run->watch.keep_every, step)) GX_TRY(keep(run));
   }
   return GX_OK;
 }

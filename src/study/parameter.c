@@ -248,8 +248,8 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                               .unit = "steps",
                               RANGE(1, 1e9),
                               .help =
-                                  "keep the state of a case under way each so many steps, from which run --resume goes on to the "
-                                  "same bits; removed when the case is done",
+                                  "keep the state of a case under way each so many steps, and on Ctrl-C, from which run --resume goes "
+                                  "on to the same bits; removed when the case is done",
                               .why = "none: it takes a write of all particles"},
     [GX_OUTPUT_PROBE] = {.path = "output.probe",
                          .type = GX_TEXT,

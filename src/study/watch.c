@@ -44,10 +44,8 @@ enum gx_status gx_watch_restore(struct gx_watch *watch, const struct gx_checkpoi
   return found < 0 ? gx_status_set(outcome, GX_CANCELLED, -1, "its checkpoint could not be loaded") : GX_OK;
 }
 
-enum gx_status gx_watch_keep(struct gx_watch *watch, const struct gx_checkpoint *checkpoint, bool last,
-                             struct gx_outcome *outcome)
+enum gx_status gx_watch_keep(struct gx_watch *watch, const struct gx_checkpoint *checkpoint, struct gx_outcome *outcome)
 {
-  if (last || watch->keep_every == 0 || fmod(checkpoint->step, watch->keep_every) != 0) return GX_OK;
   if (!watch->observer->keep(watch->watched, checkpoint)) return GX_OK;
   return gx_status_set(outcome, GX_CANCELLED, -1, "its observer failed");
 }

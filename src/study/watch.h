@@ -25,9 +25,8 @@ enum gx_status gx_watch_show(struct gx_watch *watch, double step, double time, d
 /* Loads what was kept of an equal case, if anything was: loaded. */
 enum gx_status gx_watch_restore(struct gx_watch *watch, const struct gx_checkpoint *checkpoint, bool *loaded,
                                 struct gx_outcome *outcome);
-/* Keeps the state after a step where it is due; last: it never is. */
-enum gx_status gx_watch_keep(struct gx_watch *watch, const struct gx_checkpoint *checkpoint, bool last,
-                             struct gx_outcome *outcome);
+/* Keeps the state after a step, of a watch with keep_every. */
+enum gx_status gx_watch_keep(struct gx_watch *watch, const struct gx_checkpoint *checkpoint, struct gx_outcome *outcome);
 /* The case ends with this outcome. */
 void gx_watch_end(struct gx_watch *watch, struct gx_outcome *outcome);
 
