@@ -31,8 +31,9 @@ void gx_recorder_keep(struct gx_recorder *recorder, const char *identity, bool r
 bool gx_recorder_goes_on(const struct gx_recorder *recorder, const char *id);
 /* The case has a result: its checkpoint is removed, if there is one. */
 void gx_recorder_forget(const struct gx_recorder *recorder, const char *id);
-/* -1 after a message where checkpoints stand in the way of a run that is not to go on with them. */
-int gx_recorder_refuse(const char *directory, FILE *errors);
+/* -1 after a message where checkpoints stand in the way of a run that would not go on with them: those of other cases than the study's.
+ * study: NULL: it goes on with none. */
+int gx_recorder_refuse(const char *directory, const struct gx_study *study, FILE *errors);
 
 /* Whether the snapshots of a case are there. */
 bool gx_recorder_has(const char *directory, const char *id);

@@ -389,18 +389,26 @@ bool gx_recorder_owns(const char *name)
   return split_name(name, id, &hidden);
 }
 
-int gx_recorder_refuse(const char *directory, FILE *errors)
+static bool has_case(const struct gx_study *study, const char *id)
+{
+  for (size_t i = 0; i < study->count; i++)
+    if (!strcmp(study->cases[i].id, id)) return true;
+  return false;
+}
+
+int gx_recorder_refuse(const char *directory, const struct gx_study *study, FILE *errors)
 {
   DIR *stream = opendir(directory);
   int failed = stream ? 0 : say(errors, directory);
   for (struct dirent *entry; !failed && (entry = readdir(stream));) {
     const size_t length = strlen(entry->d_name), ending = strlen(endings[CHECKPOINT]);
-    if (!gx_recorder_owns(entry->d_name) || strcmp(entry->d_name + length - ending, endings[CHECKPOINT])) continue;
-    fprintf(
-        errors,
-        "%s: holds the checkpoint of a case that was interrupted: add --resume to go on with it, name another directory with -o, "
-        "or remove %s/%s\n",
-        directory, directory, entry->d_name);
+    char id[GX_ID_LENGTH];
+    bool hidden;
+    if (!split_name(entry->d_name, id, &hidden) || strcmp(entry->d_name + length - ending, endings[CHECKPOINT])) continue;
+    if (study && has_case(study, id)) continue;
+    fprintf(errors, "%s: holds the checkpoint of a case that %s, name another directory with -o, or remove %s/%s\n", directory,
+            study ? "is not of this study: go on with it by its own run file" : "was interrupted: add --resume to go on with it",
+            directory, entry->d_name);
     failed = -1;
   }
   if (stream) closedir(stream);

@@ -155,7 +155,7 @@ static int begin(struct gx_store *store, const struct gx_store_how *how)
   if (!how->joins) {
     if (gx_store_prepare(store->directory, store->errors) || lock_directory(store)) return -1;
     if (gx_journals_check(store->directory, store->identity, how->resume, store->errors)) return -1;
-    if (!how->resume && gx_recorder_refuse(store->directory, store->errors)) return -1;
+    if (gx_recorder_refuse(store->directory, how->resume ? store->study : NULL, store->errors)) return -1;
     struct gx_journals *journals = gx_journals_open(store->directory, store->identity, store->errors);
     if (!journals) return -1;
     int failed = gx_journals_scan(journals, mark, store);

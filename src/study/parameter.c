@@ -243,14 +243,14 @@ const struct gx_parameter gx_parameters[GX_PARAMETERS] = {
                              .help = "write particles and grid each so many steps, at the start and at the end: case-<id>.h5 in "
                                      "openPMD 1.1, and .xmf beside it for ParaView",
                              .why = "none: a file of every case"},
-    [GX_OUTPUT_CHECKPOINT] = {.path = "output.checkpoint",
-                              .type = GX_INTEGER,
-                              .unit = "steps",
-                              RANGE(1, 1e9),
-                              .help =
-                                  "keep the state of a case under way each so many steps, and on Ctrl-C, from which run --resume goes "
-                                  "on to the same bits; removed when the case is done",
-                              .why = "none: it takes a write of all particles"},
+    [GX_OUTPUT_CHECKPOINT] =
+        {.path = "output.checkpoint",
+         .type = GX_INTEGER,
+         .unit = "steps",
+         RANGE(1, 1e9),
+         .help = "keep the state of a case under way each so many steps, and on Ctrl-C, from which run --resume goes "
+                 "on to the same bits; removed when the case is done",
+         .why = "none: it takes a write of all particles"},
     [GX_OUTPUT_PROBE] = {.path = "output.probe",
                          .type = GX_TEXT,
                          .unit = "m",

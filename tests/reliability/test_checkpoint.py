@@ -114,6 +114,14 @@ class Checkpoint(unittest.TestCase):
         path.unlink()
         self.assertNotIn("goes on", self.kill_behind("study.yaml", "kept"))
 
+    def test_a_checkpoint_of_another_case_is_kept(self):
+        path = self.copy("mine")
+        before = path.read_bytes()
+        err = self.call("run", "study.yaml", "-o", "mine", "--resume", "--set", "output.checkpoint=31000", code=2).stderr
+        self.assertIn("holds the checkpoint of a case that is not of this study", err)
+        self.assertEqual(path.read_bytes(), before)
+        self.assertIn("goes on from step", self.resume_ends_whole("mine"))
+
     def test_what_is_left_half_written_is_not_read(self):
         path = self.copy("torn")
         path.with_name(path.name + ".partial").write_bytes(path.read_bytes()[:1000])
