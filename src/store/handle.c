@@ -65,11 +65,13 @@ hid_t gx_handle_make_group(hid_t parent, const char *name)
   return group;
 }
 
-hid_t gx_handle_make_dataset(hid_t group, const char *name, hid_t type, size_t rows)
+hid_t gx_handle_make_dataset(hid_t group, const char *name, hid_t type, size_t rows, hid_t memory, const void *null)
 {
   hsize_t shape[1] = {rows};
   hid_t dataset = -1, space = H5Screate_simple(1, shape, NULL), property = H5Pcreate(H5P_DATASET_CREATE);
-  if (space >= 0 && property >= 0 && H5Pset_obj_track_times(property, false) >= 0)
+  if (space >= 0 && property >= 0 && H5Pset_obj_track_times(property, false) >= 0 &&
+      H5Pset_alloc_time(property, H5D_ALLOC_TIME_LATE) >= 0 && H5Pset_fill_time(property, H5D_FILL_TIME_ALLOC) >= 0 &&
+      (!null || H5Pset_fill_value(property, memory, null) >= 0))
     dataset = H5Dcreate2(group, name, type, space, H5P_DEFAULT, property, H5P_DEFAULT);
   if (property >= 0) H5Pclose(property);
   if (space >= 0) H5Sclose(space);
@@ -131,6 +133,17 @@ bool gx_handle_holds(hid_t object, double numbers)
   const bool known = file >= 0 && H5Fget_filesize(file, &bytes) >= 0;
   if (file >= 0) H5Fclose(file);
   return known && numbers * 8 <= (double)bytes;
+}
+
+bool gx_handle_is_stored(hid_t dataset)
+{
+  return H5Dget_storage_size(dataset) > 0;
+}
+
+bool gx_handle_fits(hid_t object, double rows, size_t columns, size_t stored)
+{
+  enum { MOST_EMPTY = 64 }; /* beside each that is stored, in any table */
+  return columns / MOST_EMPTY <= stored && gx_handle_holds(object, rows * (stored ? (double)stored : 1));
 }
 
 hssize_t gx_handle_members(hid_t group)

@@ -44,13 +44,18 @@ hid_t gx_handle_open_group(hid_t file, const char *name);
 /* Name of a group's member in the order in which they were made; false: there is none. */
 bool gx_handle_member(hid_t group, hsize_t i, char name[GX_HANDLE_NAME]);
 
-/* One row of so many, without times. */
-hid_t gx_handle_make_dataset(hid_t group, const char *name, hid_t type, size_t rows);
+/* A column of so many rows, without times, each null as long as nothing is written, when it takes no room: null: of `memory`'s type,
+ * NULL: a text. */
+hid_t gx_handle_make_dataset(hid_t group, const char *name, hid_t type, size_t rows, hid_t memory, const void *null);
+/* Whether it has room for its rows, that is to say whether anything was written. */
+bool gx_handle_is_stored(hid_t dataset);
 /* Number of rows and type of a dataset that can be a column, or -1. */
 hssize_t gx_handle_shape(hid_t dataset, enum gx_type *type);
 /* Whether the file that an object is of is as large as so many numbers of 8 bytes: what claims more is damaged, and no memory is taken
  * for it. */
 bool gx_handle_holds(hid_t object, double numbers);
+/* The same of a table, of whose columns at least so many are stored, and the others take no room. */
+bool gx_handle_fits(hid_t object, double rows, size_t columns, size_t stored);
 /* How many members a group has, or -1, also for more than its file can hold. */
 hssize_t gx_handle_members(hid_t group);
 

@@ -17,6 +17,11 @@ static int get_column(hid_t dataset, const char *name, struct gx_table *table, s
   if (gx_handle_shape(dataset, &type) != (hssize_t)table->rows) return -1;
   int failed = -1;
   char *unit = gx_handle_get_text(dataset, "unit");
+  if (!gx_handle_is_stored(dataset)) { /* all null */
+    failed = gx_table_column(table, c, name, unit ? unit : "", type);
+    free(unit);
+    return failed;
+  }
   union gx_entry *entry = calloc(table->rows + 1, sizeof *entry);
   hid_t text = gx_handle_text_type(), space = H5Dget_space(dataset);
   hid_t memory_type = type == GX_REAL ? H5T_NATIVE_DOUBLE : type == GX_INTEGER ? H5T_NATIVE_INT64 : text;
@@ -44,7 +49,7 @@ struct gx_table *gx_hdf5_read_group(hid_t group)
     if (gx_handle_member(group, c, name)) {
       hid_t dataset = H5Dopen2(group, name, H5P_DEFAULT);
       hssize_t rows = dataset < 0 ? -1 : gx_handle_shape(dataset, &type);
-      if (!table && rows >= 0 && gx_handle_holds(dataset, (double)columns * (double)rows))
+      if (!table && rows >= 0 && gx_handle_fits(dataset, (double)rows, (size_t)columns, 1))
         table = gx_table_create((size_t)columns, (size_t)rows);
       if (table && dataset >= 0) failed = get_column(dataset, name, table, c);
       if (dataset >= 0) H5Dclose(dataset);
@@ -126,7 +131,7 @@ static struct gx_table *get_history(hid_t group, const char *name)
     enum gx_type type;
     hid_t dataset = H5Dopen2(group, column[c], H5P_DEFAULT);
     hssize_t rows = dataset < 0 ? -1 : gx_handle_shape(dataset, &type);
-    if (!table && rows >= 0 && gx_handle_holds(dataset, 2 * (double)rows)) table = gx_table_create(2, (size_t)rows);
+    if (!table && rows >= 0 && gx_handle_fits(dataset, (double)rows, 2, 1)) table = gx_table_create(2, (size_t)rows);
     failed = !table || rows < 0 || get_column(dataset, column[c], table, c);
     if (dataset >= 0) H5Dclose(dataset);
   }

@@ -14,6 +14,7 @@ struct gx_hdf5_rows {
   struct gx_handle_silence silence;
   hid_t file, group, text;
   hid_t *dataset;        /* [like->columns], owned */
+  size_t stored;         /* of them; the others are null */
   struct gx_table *like; /* owned: names, units and types of the columns */
   size_t total, next;    /* rows */
   struct gx_provenance provenance;
@@ -40,6 +41,7 @@ static int open_column(struct gx_hdf5_rows *rows, const char *name)
   }
   char *unit = gx_handle_get_text(dataset, "unit");
   rows->total = (size_t)total;
+  rows->stored += gx_handle_is_stored(dataset);
   rows->like->columns++;
   int failed = gx_table_column(rows->like, c, name, unit ? unit : "", type);
   free(unit);
@@ -59,8 +61,7 @@ static int open_columns(struct gx_hdf5_rows *rows, size_t columns, const char *c
     if (!gx_handle_member(rows->group, i, member)) return -1;
     if (is_wanted(member, columns, name) && open_column(rows, member)) return -1;
   }
-  if (!gx_handle_holds(rows->group, (double)rows->total * (double)rows->like->columns)) return -1;
-  return 0;
+  return gx_handle_fits(rows->group, (double)rows->total, rows->like->columns, rows->stored) ? 0 : -1;
 }
 
 struct gx_hdf5_rows *gx_hdf5_rows_begin(const char *path, size_t columns, const char *const *name, FILE *errors)
@@ -93,6 +94,8 @@ void gx_hdf5_rows_seek(struct gx_hdf5_rows *rows, size_t row)
 static int read_column(struct gx_hdf5_rows *rows, struct gx_table *table, size_t c, union gx_entry *entry)
 {
   const enum gx_type type = rows->like->column[c].type;
+  if (!gx_handle_is_stored(rows->dataset[c]))
+    return gx_table_column(table, c, rows->like->column[c].name, rows->like->column[c].unit, type);
   const hid_t memory_type = type == GX_REAL ? H5T_NATIVE_DOUBLE : type == GX_INTEGER ? H5T_NATIVE_INT64 : rows->text;
   hsize_t first[1] = {rows->next}, count[1] = {table->rows};
   hid_t space = H5Dget_space(rows->dataset[c]), memory = H5Screate_simple(1, count, NULL);

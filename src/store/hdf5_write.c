@@ -63,11 +63,14 @@ static int close_sheet(struct sheet *sheet)
 
 static int make_column(struct sheet *sheet, size_t c, const struct gx_column *column)
 {
-  hid_t dataset = gx_handle_make_dataset(sheet->group, column->name, file_type(sheet, column->type), sheet->rows);
-  sheet->type[c] = column->type;
+  const enum gx_type type = column->type;
+  const union gx_entry null = gx_entry_from(type, (struct gx_value){.type = GX_NULL});
+  hid_t dataset = gx_handle_make_dataset(sheet->group, column->name, file_type(sheet, type), sheet->rows,
+                                         memory_type(sheet, type), type == GX_TEXT ? NULL : &null);
+  sheet->type[c] = type;
   sheet->dataset[c] = dataset;
   if (dataset < 0 || gx_handle_put_text(dataset, "unit", column->unit)) return -1;
-  return column->type == GX_INTEGER ? gx_handle_put_integer(dataset, "null", gx_entry_null) : 0;
+  return type == GX_INTEGER ? gx_handle_put_integer(dataset, "null", gx_entry_null) : 0;
 }
 
 /* HDF5 clears a buffer of 1 MiB by default for each piece of a column of texts, which takes longer than writing it. */
@@ -113,8 +116,13 @@ static int write_rows(struct sheet *sheet, const struct gx_table *part, size_t r
   int failed = memory < 0 || H5Sselect_hyperslab(sheet->space, H5S_SELECT_SET, first, NULL, count, NULL) < 0 ? -1 : 0;
   for (size_t c = 0; c < sheet->columns && !failed; c++) {
     const enum gx_type type = sheet->type[c];
-    for (size_t r = 0; r < rows; r++) sheet->entry[r] = gx_entry_from(type, gx_table_get(part, r, c));
-    if (H5Dwrite(sheet->dataset[c], memory_type(sheet, type), memory, sheet->space, sheet->transfer, sheet->entry) < 0)
+    bool any = false; /* a column without values takes no room */
+    for (size_t r = 0; r < rows; r++) {
+      const struct gx_value value = gx_table_get(part, r, c);
+      sheet->entry[r] = gx_entry_from(type, value);
+      any = any || value.type != GX_NULL;
+    }
+    if (any && H5Dwrite(sheet->dataset[c], memory_type(sheet, type), memory, sheet->space, sheet->transfer, sheet->entry) < 0)
       failed = -1;
   }
   if (memory >= 0) H5Sclose(memory);

@@ -270,6 +270,62 @@ static void claims_of_a_header_take_no_memory(void **state)
   refuse(f->path);
 }
 
+/* What another program reads of a column: null, but for one row of some. */
+static void column_has(hid_t group, const char *name, enum gx_type type, size_t rows, size_t value)
+{
+  union {
+    double real;
+    int64_t integer;
+    char *text;
+  } entry[8];
+  hid_t dataset = H5Dopen2(group, name, H5P_DEFAULT), stored = H5Dget_type(dataset);
+  hid_t memory_type = type == GX_REAL ? H5T_NATIVE_DOUBLE : type == GX_INTEGER ? H5T_NATIVE_INT64 : stored;
+  assert_int_equal(H5Dget_storage_size(dataset) > 0, value < rows);
+  memset(entry, 1, sizeof entry);
+  assert_true(H5Dread(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, entry) >= 0);
+  for (size_t r = 0; r < rows; r++) {
+    if (type == GX_REAL) assert_int_equal(isnan(entry[r].real), r != value);
+    if (type == GX_INTEGER) assert_int_equal(entry[r].integer == INT64_MIN, r != value);
+    if (type == GX_TEXT) assert_int_equal(!entry[r].text, r != value);
+    if (type == GX_TEXT && entry[r].text) H5free_memory(entry[r].text);
+  }
+  H5Tclose(stored);
+  H5Dclose(dataset);
+}
+
+/* Columns that have no value, or none in the first pieces. */
+static void columns_without_values_take_no_room(void **state)
+{
+  enum { PIECES = 8, LATE = 5 };
+  static const char *const names[] = {"no.text", "no.integer", "no.real", "late.text", "late.integer", "late.real"};
+  static const enum gx_type types[] = {GX_TEXT, GX_INTEGER, GX_REAL};
+  static const struct gx_value late[] = {
+      {.type = GX_TEXT, .text = "late"}, {.type = GX_INTEGER, .integer = 7}, {.type = GX_REAL, .real = 0.5}};
+  struct fixture *f = *state;
+  struct gx_table *table = gx_table_create(6, PIECES);
+  for (size_t c = 0; c < 6; c++) gx_table_column(table, c, names[c], "", types[c % 3]);
+  for (size_t c = 3; c < 6; c++) gx_table_set(table, LATE, c, late[c - 3]);
+  assert_int_equal(write_study(f, f->path, table), 0);
+  gx_table_free(table);
+  table = gx_hdf5_read(f->path, stderr);
+  assert_non_null(table);
+  for (size_t c = 0; c < 6; c++) {
+    assert_string_equal(table->column[c].name, names[c]);
+    for (size_t r = 0; r < PIECES; r++) {
+      const struct gx_value value = gx_table_get(table, r, c);
+      if (c < 3 || r != LATE)
+        assert_int_equal(value.type, GX_NULL);
+      else
+        assert_int_equal(gx_value_compare(value, late[c - 3]), 0);
+    }
+  }
+  gx_table_free(table);
+  hid_t file = H5Fopen(f->path, H5F_ACC_RDONLY, H5P_DEFAULT), group = H5Gopen2(file, "table", H5P_DEFAULT);
+  for (size_t c = 0; c < 6; c++) column_has(group, names[c], types[c % 3], PIECES, c < 3 ? PIECES : LATE);
+  H5Gclose(group);
+  H5Fclose(file);
+}
+
 static void a_study_is_stored_and_read_with_its_timing(void **state)
 {
   struct fixture *f = *state;
@@ -340,6 +396,7 @@ int main(void)
       cmocka_unit_test_setup_teardown(equal_studies_give_equal_bytes, set_up, tear_down),
       cmocka_unit_test_setup_teardown(damaged_files_are_refused, set_up, tear_down),
       cmocka_unit_test_setup_teardown(claims_of_a_header_take_no_memory, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(columns_without_values_take_no_room, set_up, tear_down),
       cmocka_unit_test_setup_teardown(a_study_is_stored_and_read_with_its_timing, set_up, tear_down),
       cmocka_unit_test_setup_teardown(only_studies_are_overwritten, set_up, tear_down),
   };
