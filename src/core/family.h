@@ -13,6 +13,8 @@
   const struct type *const prefix##_family[] = {LIST(GX_FAMILY_ENTRY) NULL};                                                     \
   const struct type *prefix##_find(const char *name)                                                                             \
   {                                                                                                                              \
+    for (size_t i = 0; prefix##_family[i]; i++) /* a name that comes from here is soon found */                                  \
+      if (prefix##_family[i]->name == name) return prefix##_family[i];                                                           \
     for (size_t i = 0; prefix##_family[i]; i++)                                                                                  \
       if (!strcmp(prefix##_family[i]->name, name)) return prefix##_family[i];                                                    \
     return NULL;                                                                                                                 \

@@ -117,10 +117,10 @@ static int write_rows(struct sheet *sheet, const struct gx_table *part, size_t r
   for (size_t c = 0; c < sheet->columns && !failed; c++) {
     const enum gx_type type = sheet->type[c];
     bool any = false; /* a column without values takes no room */
-    for (size_t r = 0; r < rows; r++) {
-      const struct gx_value value = gx_table_get(part, r, c);
-      sheet->entry[r] = gx_entry_from(type, value);
-      any = any || value.type != GX_NULL;
+    const struct gx_value *value = part->value + c;
+    for (size_t r = 0; r < rows; r++, value += part->columns) {
+      sheet->entry[r] = gx_entry_from(type, *value);
+      any = any || value->type != GX_NULL;
     }
     if (any && H5Dwrite(sheet->dataset[c], memory_type(sheet, type), memory, sheet->space, sheet->transfer, sheet->entry) < 0)
       failed = -1;

@@ -2,7 +2,7 @@
 /* Expansion: every combination of the settings' values, resolved, told apart by a hash, equal ones dropped. */
 #include "expansion.h"
 
-#include <inttypes.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -34,8 +34,12 @@ struct expansion {
     double real;
     char text[32];
   } printed[GX_PARAMETERS]; /* reals as last hashed: printing them would be most of the work */
-  uint64_t *hash;           /* of each case */
-  size_t *slot;             /* [slots] hash table of case indices + 1 */
+  struct {
+    uint64_t before, after; /* equal: of nothing yet */
+    struct gx_value value;
+  } hashed[GX_PARAMETERS]; /* the hash before and after a value: cases begin alike */
+  uint64_t *hash;          /* of each case */
+  size_t *slot;            /* [slots] hash table of case indices + 1 */
   size_t slots;
 };
 
@@ -116,6 +120,21 @@ static uint64_t hash_text(uint64_t hash, const char *text)
   return hash;
 }
 
+static bool same_value(struct gx_value a, struct gx_value b)
+{
+  if (a.type != b.type) return false;
+  switch (a.type) {
+  case GX_INTEGER:
+    return a.integer == b.integer;
+  case GX_REAL:
+    return a.real == b.real;
+  case GX_TEXT:
+    return a.text == b.text || !strcmp(a.text, b.text);
+  default:
+    return true;
+  }
+}
+
 /* FNV-1a of the lines "path=value", null values left out. */
 static uint64_t hash_case(struct expansion *expansion, const struct gx_value *value)
 {
@@ -123,9 +142,16 @@ static uint64_t hash_case(struct expansion *expansion, const struct gx_value *va
   for (int id = 0; id < GX_PARAMETERS; id++) {
     char integer[GX_NUMBER_LENGTH];
     const char *text = NULL;
+    const uint64_t before = hash;
+    if (value[id].type == GX_NULL) continue;
+    if (expansion->hashed[id].before == before && expansion->hashed[id].after != before &&
+        same_value(expansion->hashed[id].value, value[id])) {
+      hash = expansion->hashed[id].after;
+      continue;
+    }
     switch (value[id].type) {
     case GX_NULL:
-      continue;
+      break;
     case GX_INTEGER:
       gx_value_integer(value[id].integer, integer);
       text = integer;
@@ -144,23 +170,18 @@ static uint64_t hash_case(struct expansion *expansion, const struct gx_value *va
     hash = hash_text(hash, "=");
     hash = hash_text(hash, text);
     hash = hash_text(hash, "\n");
+    expansion->hashed[id].before = before;
+    expansion->hashed[id].after = hash;
+    expansion->hashed[id].value = value[id];
   }
   return hash;
 }
 
-static bool same_value(struct gx_value a, struct gx_value b)
+/* 16 digits */
+static void print_id(uint64_t hash, char id[GX_ID_LENGTH])
 {
-  if (a.type != b.type) return false;
-  switch (a.type) {
-  case GX_INTEGER:
-    return a.integer == b.integer;
-  case GX_REAL:
-    return a.real == b.real;
-  case GX_TEXT:
-    return a.text == b.text || !strcmp(a.text, b.text);
-  default:
-    return true;
-  }
+  for (int i = GX_ID_LENGTH - 2; i >= 0; i--, hash >>= 4) id[i] = "0123456789abcdef"[hash & 15];
+  id[GX_ID_LENGTH - 1] = '\0';
 }
 
 static bool same_case(const struct gx_value *a, const struct gx_value *b)
@@ -193,7 +214,7 @@ static void keep(struct expansion *expansion, const struct gx_value *value)
     }
   }
   struct gx_case *one = &study->cases[study->count];
-  snprintf(one->id, sizeof one->id, "%016" PRIx64, hash);
+  print_id(hash, one->id);
   memcpy(one->value, value, sizeof one->value);
   one->points = NULL;
   expansion->hash[study->count] = hash;

@@ -25,6 +25,11 @@ static const struct gx_value example[ROWS][3] = {
     {{.type = GX_NULL}, {.type = GX_INTEGER, .integer = 0}, {.type = GX_REAL, .real = 1e-300}},
 };
 
+static struct gx_value of_integer(long integer)
+{
+  return (struct gx_value){.type = GX_INTEGER, .integer = integer};
+}
+
 static struct gx_table *example_table(void)
 {
   struct gx_table *table = gx_table_create(3, ROWS);
@@ -51,6 +56,52 @@ static void csv_quotes_and_leaves_null_empty(void **state)
                             "\"two\nlines, h\xC3\xB6h\xC3\xB6 \\\",9007199254740993,\n"
                             ",0,1e-300\n");
   free(text);
+  gx_table_free(table);
+}
+
+/* What a row shares with the one above, and a text longer than what is written at once. */
+static void csv_repeats_what_is_repeated(void **state)
+{
+  enum { LONG = 20000, REPEATED = 8 };
+  (void)state;
+  static const char *const lines[REPEATED] = {"\"a,b\",0,0", "\"a,b\",0,-0", ",1,0.1", "\"a,b\",1,0.1",
+                                              "\"\",,1",     "\"\",2,",      "1,1,1",  "1,1,1"};
+  static const struct gx_value none = {.type = GX_NULL};
+  const struct gx_value comma = {.type = GX_TEXT, .text = "a,b"}, empty = {.type = GX_TEXT, .text = ""},
+                        word = {.type = GX_TEXT, .text = "1"};
+  const struct gx_value text[] = {comma, comma, none, comma, empty, empty, word, word};
+  const struct gx_value integer[] = {of_integer(0), of_integer(0), of_integer(1), of_integer(1),
+                                     none,          of_integer(2), of_integer(1), of_integer(1)};
+  const struct gx_value real[] = {gx_value_from(0),   gx_value_from(-0.0), gx_value_from(0.1),
+                                  gx_value_from(0.1), gx_value_from(1),    none,
+                                  gx_value_from(1),   gx_value_from(1)};
+  struct gx_table *table = gx_table_create(3, REPEATED + 2);
+  for (size_t c = 0; c < 3; c++) gx_table_column(table, c, "n", "", c == 0 ? GX_TEXT : c == 1 ? GX_INTEGER : GX_REAL);
+  for (size_t r = 0; r < REPEATED; r++) {
+    gx_table_set(table, r, 0, text[r]);
+    gx_table_set(table, r, 1, integer[r]);
+    gx_table_set(table, r, 2, real[r]);
+  }
+  char *longest = calloc(LONG + 1, 1), *written;
+  memset(longest, 'x', LONG);
+  for (size_t r = REPEATED; r < REPEATED + 2; r++) gx_table_set(table, r, 0, (struct gx_value){.type = GX_TEXT, .text = longest});
+  size_t length;
+  FILE *out = open_memstream(&written, &length);
+  gx_csv_write(table, out);
+  fclose(out);
+  const char *at = written;
+  assert_int_equal(strncmp(at, "n,n,n\n", 6), 0);
+  at += 6;
+  for (size_t r = 0; r < REPEATED + 2; r++) {
+    const char *line = r < REPEATED ? lines[r] : longest, *rest = r < REPEATED ? "\n" : ",,\n";
+    assert_int_equal(strncmp(at, line, strlen(line)), 0);
+    at += strlen(line);
+    assert_int_equal(strncmp(at, rest, strlen(rest)), 0);
+    at += strlen(rest);
+  }
+  assert_int_equal(*at, 0);
+  free(written);
+  free(longest);
   gx_table_free(table);
 }
 
@@ -391,6 +442,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(csv_quotes_and_leaves_null_empty),
+      cmocka_unit_test(csv_repeats_what_is_repeated),
       cmocka_unit_test(json_escapes_and_says_null),
       cmocka_unit_test_setup_teardown(hdf5_gives_back_what_was_written, set_up, tear_down),
       cmocka_unit_test_setup_teardown(equal_studies_give_equal_bytes, set_up, tear_down),
