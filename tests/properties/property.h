@@ -42,7 +42,7 @@ struct property {
   const char *name;
   const struct property_choice *choice; /* ended by a NULL name */
   int cases;                            /* of each seed of the fixed list */
-  int least_held; /* per cent of cases that must hold, not be silent; what promises nothing always is no test */
+  int least_held;                       /* per cent of the list's cases that must hold, not be silent */
   enum property_verdict (*check)(const struct property *property, const int *value, struct property_finding *finding);
 };
 

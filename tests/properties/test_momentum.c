@@ -55,7 +55,6 @@ static double error_of_step(const struct trial *trial)
   if (case_on_grid(simulation->kind)) {
     const struct gx_mesh *mesh = (const struct gx_mesh *)simulation->space;
     each += (double)mesh->grid.stored * unit;
-    if (mesh->reconstruction) each += (double)mesh->reconstruction->points->n * unit;
     if (mesh->consistent && mesh->grid.dim > 1) each += GX_MASS_CG_TOLERANCE;
   }
   return each * (simulation->clock->stages + 1) * turnover(trial);
@@ -113,7 +112,6 @@ static enum property_verdict check_mass(const struct property *property, const i
   for (int k = 0; k <= value[TRIAL_STEPS] && status == GX_OK; k++) {
     const struct gx_particles *particles = trial.rig.simulation.particles;
     double nodes = 0, mass = 0, terms = trial_roundings(&trial) + (double)mesh->grid.stored;
-    if (mesh->reconstruction) terms += (double)mesh->reconstruction->points->n;
     status = gx_stepper_accelerate(trial.rig.stepper, k * trial.rig.simulation.dt);
     for (size_t i = 0; i < mesh->grid.stored; i++) nodes += mesh->mass[i];
     for (size_t p = 0; p < particles->n; p++) mass += particles->m[p];

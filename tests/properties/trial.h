@@ -83,7 +83,7 @@ enum property_verdict trial_judge(const struct trial *trial, enum gx_status stat
 /* Largest difference of the two runs' particles, brought to the same view: of velocity relative to the speed of the case, of
  * displacement to a cell's width, of F. */
 double trial_distance(const struct trial *a, const struct trial *b);
-/* Roundings in sequence behind a particle after a step, at most: sums over a node's particles, over nodes, of weights. */
+/* Roundings in sequence behind a particle after a step, at most: sums over particles or points, of weights. */
 double trial_roundings(const struct trial *trial);
 /* What the roundings of a run grow to by its end, and the tolerance of solves with the full mass matrix in 2-D and 3-D: as a disturbance of
  * everything that particles carry does, measured by a twin that is disturbed by far more. plain: settled after the steps of the case.
