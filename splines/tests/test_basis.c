@@ -54,6 +54,18 @@ static void uniform(void **state)
   expect(knots, 11, (const double[]){-3.5, -2.5, -1.5, -0.5, 0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5});
 }
 
+/* Knots as given, some of them more than once: the domain lies between the knots number degree and number sites. */
+static void given(void **state)
+{
+  (void)state;
+  const double knot[] = {-1, 0, 0.5, 2, 2, 3, 5, 5};
+  struct gx_spline_knots *knots = make(GX_SPLINE_OPEN, 2, 5);
+  DONE(gx_spline_knots_given(knots, knot, &error));
+  NEAR(knots->low, 0.5, 0);
+  NEAR(knots->high, 3, 0);
+  expect(knots, 8, knot);
+}
+
 /* Images of 0.5 2 2.5 at mirrors 0 and 4: ... -2 -0.5 | 0.5 2 2.5 | 5.5 6 ...; of 0 1 4, on the mirrors: -4 -1 | 0 1 4 | 7 8 */
 static void mirrors(void **state)
 {
@@ -90,10 +102,15 @@ static void refusals(void **state)
   refuses(GX_SPLINE_NOT_INCREASING, 3, "inf", gx_spline_knots_average(k, (const double[]){0, 1, 2, HUGE_VAL}, 0, 0, &error));
   refuses(GX_SPLINE_NOT_INCREASING, -1, "more than degree + 1 times",
           gx_spline_knots_given(k, (const double[]){0, 0, 0, 0, 1, 1, 1}, &error));
+  refuses(GX_SPLINE_NOT_INCREASING, -1, "must not decrease",
+          gx_spline_knots_given(k, (const double[]){0, 0, 0, 2, 1.5, 3, 4}, &error));
+  refuses(GX_SPLINE_NOT_INCREASING, -1, "finite", gx_spline_knots_given(k, (const double[]){0, 0, 0, 1, 2, 2, INFINITY}, &error));
   refuses(GX_SPLINE_OUTSIDE, -1, "low < high", gx_spline_knots_uniform(k, 1, 1, &error));
   gx_spline_knots_free(k);
   k = make(GX_SPLINE_PERIODIC, 2, 4);
   refuses(GX_SPLINE_OUTSIDE, 3, "period of 3", gx_spline_knots_average(k, (const double[]){0, 1, 2, 3}, 0, 3, &error));
+  refuses(GX_SPLINE_OUTSIDE, -1, "open splines only",
+          gx_spline_knots_given(k, (const double[]){0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}, &error));
   refuses(GX_SPLINE_OUTSIDE, -1, "ends 1 and 1", gx_spline_knots_average(k, (const double[]){0, 1, 2, 3}, 1, 1, &error));
   gx_spline_knots_free(k);
   k = make(GX_SPLINE_EVEN, 2, 4);
@@ -178,7 +195,7 @@ static void orders_apart(void **unused)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(open_averages), cmocka_unit_test(uniform),    cmocka_unit_test(mirrors),
+      cmocka_unit_test(open_averages), cmocka_unit_test(uniform),    cmocka_unit_test(given),        cmocka_unit_test(mirrors),
       cmocka_unit_test(refusals),      cmocka_unit_test(evaluation), cmocka_unit_test(orders_apart),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

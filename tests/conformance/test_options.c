@@ -436,6 +436,40 @@ static void every_clock_is_stable_at_its_stable_step(void **state)
   assert_int_equal(none, 8); /* rkn3 and pefrl with their velocities re-projected */
 }
 
+/* u = e (X - 2 X^3 + X^4) is a spline of degree 4, and it and its second derivative vanish at the ends; its first does not. With
+ * P = E (F - 1), a = 12 E e (X^2 - X) / rho. */
+static void bend_to_a_quartic(struct gx_particles *particles, void *context)
+{
+  (void)context;
+  for (size_t p = 0; p < particles->n; p++) {
+    const double X = particles->X[0][p];
+    particles->u[0][p] = 1e-3 * (X - 2 * X * X * X + X * X * X * X);
+    particles->F[0][p] = 1 + 1e-3 * (1 - 6 * X * X + 4 * X * X * X);
+    particles->v[0][p] = 0;
+  }
+}
+
+static void the_papers_closure_takes_the_stress_at_the_ends(void **state)
+{
+  (void)state;
+  for (int i = 0; i < 4; i++) {
+    struct gx_case one = case_of("problem.name=bar-linear", "problem.modulus=4", "problem.density=2", "mesh.cells=9",
+                                 "mesh.particles_per_cell=2", "time.dt=1e-3", "method.clock=euler-stress-last",
+                                 "method.frame=reference", "method.closure=papers", "method.space=spline-particle");
+    struct rig rig;
+    case_set(&one, GX_METHOD_SPACE, i % 2 ? "spline-grid" : "spline-particle");
+    case_set_integer(&one, GX_METHOD_DEGREE, 4 + i / 2);
+    rig_build(&rig, &one, NULL, bend_to_a_quartic, NULL);
+    rig_run(&rig, 1);
+    const struct gx_particles *particles = rig.simulation.particles;
+    for (size_t p = 0; p < particles->n; p++) {
+      const double X = particles->X[0][p];
+      NEAR(particles->v[0][p], rig.simulation.dt * 12 * 4 * 1e-3 * (X * X - X) / 2, 1e-15);
+    }
+    rig_free(&rig);
+  }
+}
+
 int main(void)
 {
   gsl_set_error_handler_off();
@@ -445,6 +479,7 @@ int main(void)
       cmocka_unit_test(projections_agree_with_consistent_mass),
       cmocka_unit_test(a_fixed_grid_may_project_once),
       cmocka_unit_test(the_domain_ends_where_it_should),
+      cmocka_unit_test(the_papers_closure_takes_the_stress_at_the_ends),
       cmocka_unit_test(maxima_are_those_of_the_history),
       cmocka_unit_test(histories_are_thinned),
       cmocka_unit_test(time_is_accumulated_as_asked),
