@@ -10,6 +10,7 @@
 #include "entry.h"
 #include "hdf5_read.h"
 #include "hdf5_rows.h"
+#include "seal.h"
 
 static int get_column(hid_t dataset, const char *name, struct gx_table *table, size_t c)
 {
@@ -72,9 +73,10 @@ hid_t gx_hdf5_read_open(const char *path, FILE *errors)
     return -1;
   }
   fclose(probe);
-  hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+  const char *wrong;
+  hid_t file = gx_seal_open(path, &wrong);
   if (file < 0) {
-    fprintf(errors, "%s: is damaged or not an HDF5 file\n", path);
+    fprintf(errors, "%s: is not a study, or %s" GX_SEAL_REMEDY "\n", path, wrong);
     return -1;
   }
   hid_t provenance = gx_handle_open_group(file, "provenance"), table = gx_handle_open_group(file, "table");
@@ -86,7 +88,7 @@ hid_t gx_hdf5_read_open(const char *path, FILE *errors)
   if (table >= 0) H5Gclose(table);
   if (provenance >= 0) H5Gclose(provenance);
   if (ours && format == GX_HDF5_FORMAT) return file;
-  H5Fclose(file);
+  gx_seal_close(file);
   return -1;
 }
 
@@ -103,9 +105,10 @@ char *gx_hdf5_read_provenance(const char *path, const char *name, FILE *errors)
   struct gx_handle_silence old = gx_handle_silence();
   char *text = NULL;
   hid_t file = gx_hdf5_read_open(path, errors), provenance = file < 0 ? -1 : gx_handle_open_group(file, "provenance");
-  if (provenance >= 0 && !(text = gx_handle_get_text(provenance, name))) fprintf(errors, "%s: its %s is damaged\n", path, name);
+  if (provenance >= 0 && !(text = gx_handle_get_text(provenance, name)))
+    fprintf(errors, "%s: its %s is damaged" GX_SEAL_REMEDY "\n", path, name);
   if (provenance >= 0) H5Gclose(provenance);
-  if (file >= 0) H5Fclose(file);
+  if (file >= 0) gx_seal_close(file);
   gx_handle_restore(old);
   return text;
 }
@@ -158,9 +161,9 @@ struct gx_table *gx_hdf5_read_history(const char *path, const char *id, const ch
   if (group >= 0 && (!*name || strchr(name, '/') || H5Lexists(group, name, H5P_DEFAULT) <= 0))
     name_histories(group, name, errors);
   else if (group >= 0 && !(table = get_history(group, name)))
-    fprintf(errors, "%s: the history of case %s is damaged\n", path, id);
+    fprintf(errors, "%s: the history of case %s is damaged" GX_SEAL_REMEDY "\n", path, id);
   if (group >= 0) H5Gclose(group);
-  if (file >= 0) H5Fclose(file);
+  if (file >= 0) gx_seal_close(file);
   gx_handle_restore(old);
   return table;
 }
@@ -170,9 +173,10 @@ struct gx_table *gx_hdf5_read_spectra(const char *path, const char *id, FILE *er
   struct gx_handle_silence old = gx_handle_silence();
   struct gx_table *table = NULL;
   hid_t file = gx_hdf5_read_open(path, errors), group = file < 0 ? -1 : open_kept(file, path, "spectra", id, errors);
-  if (group >= 0 && !(table = gx_hdf5_read_group(group))) fprintf(errors, "%s: the spectra of case %s are damaged\n", path, id);
+  if (group >= 0 && !(table = gx_hdf5_read_group(group)))
+    fprintf(errors, "%s: the spectra of case %s are damaged" GX_SEAL_REMEDY "\n", path, id);
   if (group >= 0) H5Gclose(group);
-  if (file >= 0) H5Fclose(file);
+  if (file >= 0) gx_seal_close(file);
   gx_handle_restore(old);
   return table;
 }

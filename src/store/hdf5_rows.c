@@ -7,6 +7,7 @@
 
 #include "entry.h"
 #include "hdf5_read.h"
+#include "seal.h"
 
 struct gx_hdf5_rows {
   const char *path;
@@ -76,7 +77,7 @@ struct gx_hdf5_rows *gx_hdf5_rows_begin(const char *path, size_t columns, const 
   rows->group = rows->file < 0 ? -1 : gx_handle_open_group(rows->file, "table");
   rows->text = gx_handle_text_type();
   if (rows->file >= 0 && !open_columns(rows, columns, name)) return rows;
-  if (rows->file >= 0) fprintf(errors, "%s: its table is damaged\n", path);
+  if (rows->file >= 0) fprintf(errors, "%s: its table is damaged" GX_SEAL_REMEDY "\n", path);
   gx_hdf5_rows_end(rows);
   return NULL;
 }
@@ -121,7 +122,7 @@ struct gx_table *gx_hdf5_rows_next(struct gx_hdf5_rows *rows, size_t most, size_
     memset(entry, 0, count * sizeof *entry); /* what a damaged file leaves out */
     failed = read_column(rows, table, c, entry);
   }
-  if (failed) fprintf(rows->errors, "%s: its table is damaged\n", rows->path);
+  if (failed) fprintf(rows->errors, "%s: its table is damaged" GX_SEAL_REMEDY "\n", rows->path);
   free(entry);
   rows->next += count;
   if (!failed) return table;
@@ -143,7 +144,7 @@ struct gx_table *gx_hdf5_rows_kept(struct gx_hdf5_rows *rows, enum gx_hdf5_kept 
   hid_t all = gx_handle_open_group(rows->file, name), group = all < 0 ? -1 : gx_handle_open_group(all, id);
   struct gx_table *table = group < 0 ? NULL : gx_hdf5_read_group(group);
   *failed = group >= 0 && !table ? -1 : 0;
-  if (*failed) fprintf(rows->errors, "%s: the %s of case %s are damaged\n", rows->path, name, id);
+  if (*failed) fprintf(rows->errors, "%s: the %s of case %s are damaged" GX_SEAL_REMEDY "\n", rows->path, name, id);
   if (group >= 0) H5Gclose(group);
   if (all >= 0) H5Gclose(all);
   return table;
@@ -174,7 +175,7 @@ const struct gx_provenance *gx_hdf5_rows_provenance(struct gx_hdf5_rows *rows)
   }
   if (group >= 0) H5Gclose(group);
   if (!failed) return provenance;
-  fprintf(rows->errors, "%s: its provenance is damaged\n", rows->path);
+  fprintf(rows->errors, "%s: its provenance is damaged" GX_SEAL_REMEDY "\n", rows->path);
   return NULL;
 }
 
@@ -184,7 +185,7 @@ void gx_hdf5_rows_end(struct gx_hdf5_rows *rows)
   for (size_t c = 0; rows->like && c < rows->like->columns; c++) H5Dclose(rows->dataset[c]);
   if (rows->text >= 0) H5Tclose(rows->text);
   if (rows->group >= 0) H5Gclose(rows->group);
-  if (rows->file >= 0) H5Fclose(rows->file);
+  if (rows->file >= 0) gx_seal_close(rows->file);
   gx_handle_restore(rows->silence);
   gx_table_free(rows->like);
   for (int i = 0; i <= GX_PROVENANCE_TEXTS; i++) free(rows->owned[i]);

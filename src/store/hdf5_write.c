@@ -12,6 +12,7 @@
 #include "disk.h"
 #include "entry.h"
 #include "handle.h"
+#include "seal.h"
 
 const char *const gx_hdf5_write_kept_name[GX_HDF5_KEPT] = {"histories", "spectra"};
 
@@ -211,6 +212,7 @@ int gx_hdf5_write_end(struct gx_hdf5_writer *writer, const struct gx_provenance 
   if (writer->file >= 0 && H5Fclose(writer->file) < 0) failed = -1;
   gx_disk_end(&writer->disk);
   gx_handle_restore(writer->silence);
+  if (!failed && !writer->disk.failed) writer->disk.failed = gx_seal_put(writer->descriptor);
   /* EINVAL: a file system that cannot; nothing more to be done there. */
   if (!failed && !writer->disk.failed && fsync(writer->descriptor) && errno != EINVAL) writer->disk.failed = errno;
   if (close(writer->descriptor) && !writer->disk.failed) writer->disk.failed = errno;

@@ -93,19 +93,33 @@ static uint64_t next_magic(struct window *window, uint64_t offset)
   return bytes ? offset : window->size;
 }
 
+/* A damaged record is looked through for others, since bytes may be missing from it. Heads can be forged of which each claims all that
+ * follows; what is left of `budget` bounds what is read in vain. */
+static uint64_t pass_damaged(struct window *window, uint64_t offset, const struct gx_journal_record *record, uint64_t *budget)
+{
+  const uint64_t length = sizeof *record + record->length;
+  if (record->length > window->size - offset - sizeof *record) return next_magic(window, offset + 1); /* nothing was read */
+  if (length > *budget) return offset + length;
+  *budget -= length;
+  return next_magic(window, offset + 1);
+}
+
 int gx_journal_scan(int file, void (*found)(void *context, size_t index, uint64_t offset), void *context)
 {
   struct window *window = calloc(1, sizeof *window);
   if (!window) return -1;
   window->file = file;
   int failed = measure(file, &window->size);
+  uint64_t budget = 4 * window->size;
   for (uint64_t offset = 0; !failed && offset < window->size;) {
     struct gx_journal_record record;
-    if (read_record(window, offset, &record) && is_whole(window, offset, &record)) {
+    if (!read_record(window, offset, &record)) {
+      offset = next_magic(window, offset + 1);
+    } else if (is_whole(window, offset, &record)) {
       found(context, record.index, offset);
       offset += sizeof record + record.length;
     } else {
-      offset = next_magic(window, offset + 1);
+      offset = pass_damaged(window, offset, &record, &budget);
     }
     failed = window->failed ? -1 : 0;
   }

@@ -13,6 +13,7 @@
 
 #include "disk.h"
 #include "handle.h"
+#include "seal.h"
 
 enum { NAME = 64, MEMBERS = 24, ATTRIBUTES = 16 }; /* so many links and attributes of an object stay in its header */
 
@@ -386,6 +387,7 @@ int gx_openpmd_close(struct gx_openpmd *file)
   if (file->datasets >= 0) H5Pclose(file->datasets);
   gx_disk_end(&file->disk);
   gx_handle_restore(old);
+  if (!file->failed && !file->disk.failed) file->disk.failed = gx_seal_put(file->descriptor);
   if (close(file->descriptor) && !file->disk.failed) file->disk.failed = errno;
   int failed = check(file);
   free(file->triples);

@@ -8,6 +8,7 @@
 
 #include "handle.h"
 #include "openpmd.h"
+#include "seal.h"
 
 struct gx_series_file {
   hid_t file;
@@ -220,10 +221,11 @@ static struct gx_series *open_path(char *path, FILE *errors)
     free(path);
     return NULL;
   }
-  *file = (struct gx_series_file){.file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT), .path = path};
+  const char *wrong;
+  *file = (struct gx_series_file){.file = gx_seal_open(path, &wrong), .path = path};
   series->file = file;
   if (file->file >= 0 && !list_snapshots(series) && !measure_sets(series)) return series;
-  fprintf(errors, "%s: is damaged, or not a file of snapshots\n", path);
+  fprintf(errors, "%s: %s" GX_SEAL_REMEDY "\n", path, file->file < 0 ? wrong : "is damaged, or not a file of snapshots");
   gx_series_close(series);
   return NULL;
 }
@@ -254,7 +256,7 @@ void gx_series_close(struct gx_series *series)
 {
   if (!series) return;
   struct gx_handle_silence old = gx_handle_silence();
-  if (series->file->file >= 0) H5Fclose(series->file->file);
+  if (series->file->file >= 0) gx_seal_close(series->file->file);
   gx_handle_restore(old);
   free(series->file->path);
   free(series->file);

@@ -116,6 +116,7 @@ int gx_snapshot_log_flush(struct gx_snapshot_log *log)
 /* A snapshot read back, its names and arrays its own. */
 struct reading {
   int file;
+  uint64_t length; /* of the file, bytes: it cannot hold more numbers */
   bool first;
   struct gx_snapshot snapshot;
   char name[2][GX_SNAPSHOT_RECORDS][sizeof((struct entry *)0)->name];
@@ -127,7 +128,7 @@ static int read_record(struct reading *reading, int s, struct gx_record_set *set
   struct gx_record *record = &set->record[r];
   int failed = transfer(reading->file, false, &entry, sizeof entry);
   if (failed) return failed;
-  if (entry.rank < 0 || entry.rank > 2) return ENODATA;
+  if (entry.rank < 0 || entry.rank > 2 || !memchr(entry.name, 0, sizeof entry.name)) return ENODATA;
   memcpy(reading->name[s][r], entry.name, sizeof entry.name);
   record->name = reading->name[s][r];
   record->rank = (int)entry.rank;
@@ -137,11 +138,34 @@ static int read_record(struct reading *reading, int s, struct gx_record_set *set
   record->constant = entry.constant;
   record->offset = entry.offset;
   for (int k = 0; k < gx_snapshot_components(reading->snapshot.dim, record->rank) && !failed; k++) {
-    if (!record->value[k]) record->value[k] = malloc((set->n + 1) * sizeof(double));
+    if (!record->value[k]) record->value[k] = calloc(set->n + 1, sizeof(double));
     if (!record->value[k]) return ENOMEM;
     if (reading->first || !record->constant) failed = transfer(reading->file, false, record->value[k], set->n * sizeof(double));
   }
   return failed;
+}
+
+/* n points, of which the file can hold a component, in as many places. */
+static bool is_shape(const struct gx_record_set *set, uint64_t length)
+{
+  double places = 1;
+  for (int d = 0; d < GX_MAX_DIM; d++) places *= (double)set->shape[d];
+  return set->n <= length / sizeof(double) && places == (double)set->n;
+}
+
+/* Whether there is what every file of snapshots tells of its points. */
+static bool has_vector(const struct gx_record_set *set, const char *name)
+{
+  const struct gx_record *record = gx_snapshot_record(set, name);
+  return record && record->rank == 1;
+}
+
+static bool is_sound(const struct gx_snapshot *snapshot)
+{
+  const struct gx_record_set *particles = &snapshot->particles, *vertices = &snapshot->vertices;
+  const struct gx_record *displacement = gx_snapshot_record(vertices, "displacement");
+  return has_vector(particles, "position") && has_vector(particles, "velocity") &&
+         (!vertices->n || (has_vector(vertices, "velocity") && (!displacement || displacement->rank == 1)));
 }
 
 static int read_snapshot(struct reading *reading)
@@ -163,10 +187,11 @@ static int read_snapshot(struct reading *reading)
     set[s]->n = (size_t)head.set[s].n;
     set[s]->count = (int)head.set[s].count;
     for (int d = 0; d < GX_MAX_DIM; d++) set[s]->shape[d] = (size_t)head.set[s].shape[d];
+    if (!is_shape(set[s], reading->length)) return ENODATA;
     for (int r = 0; r < set[s]->count && !failed; r++) failed = read_record(reading, s, set[s], r);
   }
   reading->first = false;
-  return failed;
+  return failed ? failed : is_sound(snapshot) ? 0 : ENODATA;
 }
 
 int gx_snapshot_log_replay(const struct gx_snapshot_log *log, int (*show)(void *context, const struct gx_snapshot *snapshot),
@@ -175,6 +200,7 @@ int gx_snapshot_log_replay(const struct gx_snapshot_log *log, int (*show)(void *
   struct reading *reading = calloc(1, sizeof *reading);
   if (!reading) return ENOMEM;
   reading->file = log->file;
+  reading->length = log->length;
   reading->first = true;
   int failed = lseek(log->file, 0, SEEK_SET) < 0 ? errno : 0;
   while (!failed && (uint64_t)lseek(log->file, 0, SEEK_CUR) < log->length) {

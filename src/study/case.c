@@ -30,6 +30,7 @@ struct run {
   double spectra_every;
   double frequency_every;
   double budget_every;
+  double samples_kept, spectra_kept; /* room for so many */
   struct gx_watch watch;
   struct gx_spectrum *spectrum;
   struct gx_restitution *restitution; /* NULL: there are no two bodies */
@@ -116,10 +117,10 @@ static enum gx_status prepare(struct run *run, const struct gx_case *one, double
   if (run->budget && simulation->jumps) gx_budget_jumps(run->budget);
   if (simulation->problem->second && !(run->restitution = gx_restitution_create(simulation->space)))
     return gx_status_set(outcome, GX_FAILED, -1, "out of memory for the restitution");
-  if (run->history_every > 0 || run->budget_every > 0)
-    GX_TRY(gx_history_begin(run->result, simulation, gx_kept_samples(simulation, one), run->budget));
-  if (run->spectra_every > 0)
-    GX_TRY(gx_history_begin_spectra(run->result, simulation, gx_kept_spectra(simulation, one), &run->spectrum));
+  run->samples_kept = gx_kept_samples(simulation, one);
+  run->spectra_kept = gx_kept_spectra(simulation, one);
+  if (run->samples_kept > 0) GX_TRY(gx_history_begin(run->result, simulation, run->samples_kept, run->budget));
+  if (run->spectra_kept > 0) GX_TRY(gx_history_begin_spectra(run->result, simulation, run->spectra_kept, &run->spectrum));
   GX_TRY(gx_watch_begin(&run->watch, simulation, one, run->measure, run->means.observer, outcome));
   run->frequency.interval = run->frequency_every * simulation->dt;
   double m = 0, c = simulation->posed->speed;
@@ -137,6 +138,7 @@ static bool is_due(double every, double step)
 static void take_spectrum(struct run *run)
 {
   struct gx_spectra *spectra = &run->result->spectra;
+  if ((double)spectra->samples >= run->spectra_kept) return;
   const double before = gx_stopwatch_now(&run->stopwatch);
   spectra->time[spectra->samples] = run->time;
   gx_spectrum_take(run->spectrum, run->measure, spectra->rms + spectra->samples * GX_QUANTITIES * spectra->bins);
@@ -199,6 +201,7 @@ static enum gx_status take_sample(struct run *run, double step)
   gx_stopwatch_sample_end(&run->stopwatch, &taken);
   GX_TRY(refuse_nonsense(run));
   struct gx_history *history = &run->result->history;
+  kept = kept && (double)history->samples < run->samples_kept; /* a checkpoint may claim more */
   if (kept && history->probe) history->probe[history->samples] = *gx_measure_probe(run->measure);
   if (kept && history->budget) history->budget[history->samples] = run->budgeted;
   if (kept) history->sample[history->samples++] = gx_measure_result(run->measure)->last;
@@ -260,10 +263,11 @@ static void image_run(void *context, struct gx_image *image)
   GX_IMAGE(image, run->lost);
   GX_IMAGE(image, run->frequency);
   gx_stopwatch_image(&run->stopwatch, image);
-  gx_history_image(run->result, image);
+  gx_history_image(run->result, run->samples_kept, run->spectra_kept, image);
   gx_measure_image(run->measure, image);
   if (run->budget) gx_budget_image(run->budget, image);
   if (gx_stepper_image(run->stepper, image) != GX_OK) image->failed = true;
+  image->failed |= !(run->result->steps >= 0) || run->result->steps != floor(run->result->steps);
 }
 
 static struct gx_checkpoint checkpoint_of(struct run *run)

@@ -37,12 +37,13 @@ enum gx_status gx_history_begin_spectra(struct gx_result *result, const struct g
   return gx_status_set(&result->outcome, GX_FAILED, -1, "out of memory for %.3g spectra", samples);
 }
 
-void gx_history_image(struct gx_result *result, struct gx_image *image)
+void gx_history_image(struct gx_result *result, double samples, double lines, struct gx_image *image)
 {
   struct gx_history *history = &result->history;
   struct gx_spectra *spectra = &result->spectra;
   GX_IMAGE(image, history->samples);
   GX_IMAGE(image, spectra->samples);
+  if ((double)history->samples > samples || (double)spectra->samples > lines) image->failed = true;
   if (image->failed) return;
   gx_image_bytes(image, history->sample, history->samples * sizeof *history->sample);
   if (history->probe) gx_image_bytes(image, history->probe, history->samples * sizeof *history->probe);

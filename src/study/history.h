@@ -11,7 +11,7 @@ enum gx_status gx_history_begin(struct gx_result *result, const struct gx_simula
 /* The same for spectra. spectrum: NULL when it fails, to be freed in any case. */
 enum gx_status gx_history_begin_spectra(struct gx_result *result, const struct gx_simulation *simulation, double samples,
                                         struct gx_spectrum **spectrum);
-/* Of the samples so far. */
-void gx_history_image(struct gx_result *result, struct gx_image *image);
+/* Of the samples so far, for which there is that room. */
+void gx_history_image(struct gx_result *result, double samples, double spectra, struct gx_image *image);
 
 #endif

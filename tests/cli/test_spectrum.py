@@ -9,7 +9,7 @@ import sys
 import unittest
 
 sys.dont_write_bytecode = True
-from studied import PROGRAM, Studied
+from studied import PROGRAM, Studied, seal
 
 PROGRAM, ROOT = (pathlib.Path(a).resolve() for a in sys.argv[1:3])
 STUDY = """title: small
@@ -147,6 +147,8 @@ class Files(Case):
                 script = f"import h5py\nf = h5py.File({str(path)!r}, 'r+')\ng = f['spectra']['{case}']\n{change}\nf.close()"
                 done = subprocess.run([PYTHON, "-c", script], capture_output=True, text=True)
                 self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertIn("changed by another program", self.call("spectrum", "small.study", code=2).stderr)
+                seal(path)
                 done = self.call("spectrum", "small.study", "--case", case, code=2)
                 self.assertEqual(done.stdout, "")
                 self.assertIn(hint, done.stderr)

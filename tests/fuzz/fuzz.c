@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <gridcross/status.h>
@@ -29,12 +30,32 @@ static void require(int holds, const char *what)
   abort();
 }
 
+static void clear(const char *path, int depth)
+{
+  DIR *stream = opendir(path);
+  for (struct dirent *entry; stream && (entry = readdir(stream));) {
+    char below[2 * FUZZ_PATH];
+    if (!strcmp(entry->d_name, ".") || !strcmp(entry->d_name, "..")) continue;
+    snprintf(below, sizeof below, "%s/%s", path, entry->d_name);
+    if (unlink(below) && depth) clear(below, depth - 1);
+  }
+  if (stream) closedir(stream);
+  rmdir(path);
+}
+
 static void remove_directory(void)
 {
-  DIR *stream = opendir(directory);
-  for (struct dirent *entry; stream && (entry = readdir(stream));) unlink(fuzz_path(entry->d_name));
-  if (stream) closedir(stream);
-  rmdir(directory);
+  clear(directory, 1);
+}
+
+void fuzz_clear(const char *name)
+{
+  clear(fuzz_path(name), 0);
+}
+
+void fuzz_make(const char *name)
+{
+  require(!mkdir(fuzz_path(name), 0777), "cannot make a directory");
 }
 
 const char *fuzz_directory(void)
@@ -48,7 +69,7 @@ const char *fuzz_directory(void)
 
 const char *fuzz_path(const char *name)
 {
-  static char path[512];
+  static char path[FUZZ_PATH];
   snprintf(path, sizeof path, "%s/%s", fuzz_directory(), name);
   return path;
 }
@@ -135,24 +156,25 @@ void fuzz_run(const struct gx_case *one)
   gx_case_free(&result);
 }
 
-void fuzz_study(char id[2][17])
+struct gx_study *fuzz_study(const char *name, size_t shard, size_t shards)
 {
   static const char text[] = "title: everything\n"
                              "problem: {name: bar-neo-hookean}\n"
-                             "mesh: {cells: 4, particles_per_cell: 2}\n"
+                             "mesh: {cells: [4, 5], particles_per_cell: 2}\n"
                              "method: {degree: [1, 2]}\n"
                              "time: {steps: 2}\n"
                              "output: {histories: 1, spectra: 1, snapshots: 1, budget: 1, probe: '0.5', jumps: 'yes'}\n";
+  const struct gx_store_how how = {.shard = shard, .shards = shards};
   FILE *errors = stderr;
   fuzz_directory();
   struct gx_study *study = gx_runfile_parse("everything.yaml", text, errors);
-  require(study && study->count == 2, "no study");
-  struct gx_store *store = gx_store_open(fuzz_directory(), study, &(struct gx_store_how){0}, errors);
+  require(study && study->count == 4, "no study");
+  struct gx_store *store = gx_store_open(fuzz_path(name), study, &how, errors);
   require(store != NULL, "no store");
-  struct gx_study_means means = {.threads = 1, .sink = gx_store_sink(store), .observer = gx_store_observer(store)};
+  struct gx_study_means means = {
+      .threads = 1, .sink = gx_store_sink(store), .observer = gx_store_observer(store), .skip = gx_store_skip(store)};
   require(!gx_study_run(study, &means), "no run");
   require(!gx_store_finish(store, &(struct gx_store_run){.command = "fuzz"}), "not finished");
   require(!gx_store_close(store), "not closed");
-  for (int i = 0; i < 2; i++) memcpy(id[i], study->cases[i].id, sizeof id[i]);
-  gx_runfile_free(study);
+  return study;
 }

@@ -8,7 +8,9 @@
 #include <stdint.h>
 #include <stdio.h>
 
-struct gx_case;
+#include <gridcross/study.h>
+
+enum { FUZZ_PATH = 256 };
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -19,6 +21,9 @@ const char *fuzz_path(const char *name);
 /* Where messages go. */
 FILE *fuzz_quiet(void);
 void fuzz_write(const char *name, const void *data, size_t size);
+/* A directory in it is made, or removed with the files in it. */
+void fuzz_make(const char *name);
+void fuzz_clear(const char *name);
 
 /* A file of fuzz_directory, [size], owned by the caller. */
 uint8_t *fuzz_read(const char *name, size_t *size);
@@ -29,7 +34,8 @@ void fuzz_damage(const char *name, const uint8_t *good, size_t length, const uin
 /* Runs a case if it is small, and checks that its row of the table is numbers. */
 void fuzz_run(const struct gx_case *one);
 
-/* Runs a small study with everything that a study can keep into fuzz_directory(). Ids of its cases; the first has kept everything. */
-void fuzz_study(char id[2][17]);
+/* Runs a small study of four cases with everything that a study can keep into a directory in fuzz_directory(); shards 0: undivided.
+ * Owned by the caller. */
+struct gx_study *fuzz_study(const char *name, size_t shard, size_t shards);
 
 #endif
