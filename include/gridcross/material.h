@@ -30,6 +30,8 @@ struct gx_material {
                      double *const *rate_P);
   /* Strain energy per reference volume, Pa. */
   void (*energy)(const struct gx_moduli *moduli, int dim, size_t n, double *const *F, double *W);
+  /* Sum of that over the points; NULL: by the points. */
+  double (*total)(const struct gx_moduli *moduli, int dim, size_t n, double *const *F);
   /* Longitudinal wave speed at F = I, m/s. */
   double (*wave_speed)(const struct gx_moduli *moduli);
 };

@@ -6,7 +6,6 @@
 #include <gridcross/clock.h>
 #include <gridcross/space.h>
 
-enum gx_quantity { GX_DISPLACEMENT, GX_VELOCITY, GX_STRESS, GX_QUANTITIES };
 struct gx_measure_name {
   const char *name, *unit;
 };
@@ -72,14 +71,16 @@ int gx_measure_follow(struct gx_measure *measure, size_t particle, const double 
 const struct gx_probe *gx_measure_probe(const struct gx_measure *measure);
 /* What the stepper must call for the work of the body force. */
 struct gx_work_observer gx_measure_work(struct gx_measure *measure);
-/* Takes the sample at time t: the start, then ends of steps, every one of them unless only the last matters. */
+/* Takes the sample at time t: the start, then ends of steps, every one of them unless only the last matters. Where the space can do
+ * without, particles stay as they were: whoever looks at them settles them. */
 enum gx_status gx_measure_take(struct gx_measure *measure, struct gx_stepper *stepper, double t, double dt);
+/* Brings the particles up to date with the last sample, before the next step. */
+void gx_measure_settle(struct gx_measure *measure);
 /* Error of one component at the last sample, made anew from the particles, which have not moved on since: of a vector dim, of Cauchy
  * stress dim * dim, row-major; of a problem with an exact solution. error: [n] */
-void gx_measure_error(const struct gx_measure *measure, enum gx_quantity quantity, int component, double *error);
+void gx_measure_error(struct gx_measure *measure, enum gx_quantity quantity, int component, double *error);
 /* Norms of the difference between the last samples of two measures of the same particles, likewise. */
-void gx_measure_difference(const struct gx_measure *measure, const struct gx_measure *other,
-                           double error[GX_QUANTITIES][GX_NORMS]);
+void gx_measure_difference(struct gx_measure *measure, struct gx_measure *other, double error[GX_QUANTITIES][GX_NORMS]);
 /* Of everything measured so far, between samples. */
 void gx_measure_image(struct gx_measure *measure, struct gx_image *image);
 /* What was measured so far. */

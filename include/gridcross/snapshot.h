@@ -45,8 +45,8 @@ struct gx_snapshot {
 struct gx_snapshot_maker;
 
 /* All is borrowed; cells: per direction. NULL when memory runs out. */
-struct gx_snapshot_maker *gx_snapshot_create(struct gx_space *space, const struct gx_clock *clock,
-                                             const struct gx_measure *measure, const int *cells);
+struct gx_snapshot_maker *gx_snapshot_create(struct gx_space *space, const struct gx_clock *clock, struct gx_measure *measure,
+                                             const int *cells);
 void gx_snapshot_free(struct gx_snapshot_maker *maker);
 /* How many numbers a snapshot of a space is, constant records left out. */
 double gx_snapshot_numbers(const struct gx_space *space, const int *cells);

@@ -66,6 +66,24 @@ enum gx_field { GX_FIELD_VELOCITY, GX_FIELD_ACCELERATION };
 
 struct gx_space;
 
+enum gx_quantity { GX_DISPLACEMENT, GX_VELOCITY, GX_STRESS, GX_QUANTITIES };
+
+/* What measures need to know of all particles at the end of a step, right after an acceleration at its time. */
+struct gx_survey {
+  /* asked */
+  double t;         /* s */
+  double ahead;     /* s that velocities are behind */
+  bool energies;    /* momentum, kinetic, elastic and defect; elastic where the material has an energy */
+  bool first_order; /* of the defect */
+  double *kept;     /* [gx_space.surveyed] what one survey leaves for the next; zeros before the first */
+  /* found */
+  double square[GX_QUANTITIES]; /* sum over particles of the squared error against the exact solution */
+  double most[GX_QUANTITIES];   /* the largest of them */
+  double momentum[GX_MAX_DIM];  /* sum m v, kg m/s */
+  double kinetic, elastic;      /* sum m v^2 / 2, sum V0 W, J */
+  double defect;                /* W: sum m (v - v0)/4 (a - a0), first order: sum m v0/2 (a - a0); v0, a0: at the last survey */
+};
+
 struct gx_space_kind {
   const char *name;
   const char *help;
@@ -104,6 +122,8 @@ struct gx_space_kind {
   bool (*power)(struct gx_space *space, double ahead, double *power);
   /* Brings particles up to date with a state that lives on nodes; NULL: nothing to do. */
   void (*settle)(struct gx_space *space);
+  /* Finds all this without settling the particles, where gx_space.surveyed is not 0. NULL: cannot. */
+  void (*survey)(struct gx_space *space, struct gx_survey *survey);
   /* Acceleration of the particles after accelerate. a: [dim][n], m/s^2. */
   void (*particle_acceleration)(struct gx_space *space, double *const *a);
   /* The field sum_i value_i N_i of the present nodal velocity or acceleration at n points of the grid's own coordinate: x where the
@@ -122,6 +142,7 @@ struct gx_space {
   size_t left_cells;              /* quadrature reconstructed: most cells at once that were left to sums over their particles */
   const double *edge;             /* [edges] ascending, where cells of its own end, m, borrowed; NULL: the cells of mesh.cells */
   size_t edges;
+  size_t surveyed; /* numbers that a survey keeps; 0: there is none of this space */
 };
 
 extern const struct gx_space_kind *const gx_space_family[];

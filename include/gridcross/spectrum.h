@@ -21,7 +21,7 @@ size_t gx_spectrum_bins(const struct gx_spectrum *spectrum);
 /* Wavenumber of bin i is i times this: 1 periodic, 1/2 between fixed ends; 1/m. */
 double gx_spectrum_spacing(const struct gx_spectrum *spectrum);
 /* Of the errors at the measure's last sample. rms: [GX_QUANTITIES][bins], m, m/s, Pa. */
-void gx_spectrum_take(struct gx_spectrum *spectrum, const struct gx_measure *measure, double *rms);
+void gx_spectrum_take(struct gx_spectrum *spectrum, struct gx_measure *measure, double *rms);
 
 /* Spectra of a run, as it keeps them. */
 struct gx_spectra {

@@ -21,67 +21,96 @@ enum { LANES = GX_VECTOR_LANES, HALF = LANES / 2 };
 /* Half of the partial sums: four doubles, for which every level has code. */
 typedef double half __attribute__((vector_size(HALF * sizeof(double))));
 
+/* Up to HALF entries, at least one, and zeros. */
+GX_CORE void load(size_t some, const double *x, half *all)
+{
+  if (some < HALF)
+    *all = (half){x[0], some > 1 ? x[1] : 0, some > 2 ? x[2] : 0, 0};
+  else
+    memcpy(all, x, sizeof *all);
+}
+
 /* sum += a * b * c of some entries from i on; b and c may be NULL: 1 */
 GX_CORE void add_some(size_t some, size_t i, const double *a, const double *b, const double *c, half *sum)
 {
   half product = {0}, factor = {0};
-  memcpy(&product, a + i, some * sizeof(double));
-  if (b) memcpy(&factor, b + i, some * sizeof(double));
+  load(some, a + i, &product);
+  if (b) load(some, b + i, &factor);
   if (b) product *= factor;
-  if (c) memcpy(&factor, c + i, some * sizeof(double));
+  if (c) load(some, c + i, &factor);
   if (c) product *= factor;
   *sum += product;
 }
 
-GX_CORE void add_products(size_t n, const double *a, const double *b, const double *c, double *parts)
+/* sum: [2] partial sums, which stay in registers: through memory they would come in other sizes than they went */
+GX_CORE void add_products(size_t n, const double *a, const double *b, const double *c, half *sum)
+{
+  const size_t whole = n - n % LANES;
+  half low = sum[0], high = sum[1];
+  for (size_t i = 0; i < whole; i += LANES) {
+    add_some(HALF, i, a, b, c, &low);
+    add_some(HALF, i + HALF, a, b, c, &high);
+  }
+  const size_t left = n - whole;
+  if (left > 0) add_some(left < HALF ? left : HALF, whole, a, b, c, &low);
+  if (left > HALF) add_some(left - HALF, whole + HALF, a, b, c, &high);
+  sum[0] = low;
+  sum[1] = high;
+}
+
+GX_CORE void add_piece(size_t n, const double *a, const double *b, double *parts)
 {
   half sum[2];
-  const size_t whole = n - n % LANES;
-  memcpy(sum, parts, sizeof sum);
-  for (size_t i = 0; i < whole; i += LANES) {
-    add_some(HALF, i, a, b, c, &sum[0]);
-    add_some(HALF, i + HALF, a, b, c, &sum[1]);
-  }
-  for (size_t i = whole, h = 0; i < n; i += HALF, h++) add_some(n - i < HALF ? n - i : HALF, i, a, b, c, &sum[h]);
-  memcpy(parts, sum, sizeof sum);
+  memcpy(&sum[0], parts, sizeof *sum);
+  memcpy(&sum[1], parts + HALF, sizeof *sum);
+  add_products(n, a, b, NULL, sum);
+  memcpy(parts, &sum[0], sizeof *sum);
+  memcpy(parts + HALF, &sum[1], sizeof *sum);
+}
+
+/* sum: [2] */
+GX_CORE double total_of(const half *sum)
+{
+  const half both = sum[0] + sum[1];
+  return (both[0] + both[2]) + (both[1] + both[3]);
 }
 
 GX_CLONES void gx_vector_sum_piece(size_t n, const double *value, double *parts)
 {
-  add_products(n, value, NULL, NULL, parts);
+  add_piece(n, value, NULL, parts);
 }
 
 GX_CLONES void gx_vector_dot_piece(size_t n, const double *a, const double *b, double *parts)
 {
-  add_products(n, a, b, NULL, parts);
-}
-
-GX_CLONES double gx_vector_weighted(size_t n, const double *weight, const double *a, const double *b)
-{
-  double parts[LANES] = {0};
-  add_products(n, weight, a, b, parts);
-  return gx_vector_total(parts);
+  add_piece(n, a, b, parts);
 }
 
 double gx_vector_total(const double *parts)
 {
-  double sum = 0;
-  for (int k = 0; k < LANES; k++) sum += parts[k];
-  return sum;
+  half sum[2];
+  memcpy(sum, parts, sizeof sum);
+  return total_of(sum);
 }
 
-double gx_vector_sum(size_t n, const double *value)
+GX_CLONES double gx_vector_sum(size_t n, const double *value)
 {
-  double parts[LANES] = {0};
-  gx_vector_sum_piece(n, value, parts);
-  return gx_vector_total(parts);
+  half sum[2] = {{0}, {0}};
+  add_products(n, value, NULL, NULL, sum);
+  return total_of(sum);
 }
 
-double gx_vector_dot(size_t n, const double *a, const double *b)
+GX_CLONES double gx_vector_dot(size_t n, const double *a, const double *b)
 {
-  double parts[LANES] = {0};
-  gx_vector_dot_piece(n, a, b, parts);
-  return gx_vector_total(parts);
+  half sum[2] = {{0}, {0}};
+  add_products(n, a, b, NULL, sum);
+  return total_of(sum);
+}
+
+GX_CLONES double gx_vector_weighted(size_t n, const double *weight, const double *a, const double *b)
+{
+  half sum[2] = {{0}, {0}};
+  add_products(n, weight, a, b, sum);
+  return total_of(sum);
 }
 
 GX_CLONES double gx_vector_max(size_t n, const double *restrict value)

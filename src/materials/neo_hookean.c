@@ -8,6 +8,7 @@
 
 #include "../core/logarithm.h"
 #include "../core/tensor.h"
+#include "../core/vector.h"
 
 static const double huge = 1e100;
 
@@ -109,6 +110,62 @@ GX_CLONES static void energy(const struct gx_moduli *moduli, int dimension, size
   GX_FOR_DIM(dimension, energy_points(dim, moduli, n, F, W))
 }
 
+enum { FOLD = 4 };
+
+/* W of points p, p + n, ... together, n of them, without a bulk term: ln J1 + ln J2 + ... is one logarithm. */
+GX_CORE void energy_folded(const int dim, double mu, size_t n, double *const *F, double *restrict W)
+{
+  const double *in[FOLD][GX_MAX_TENSOR];
+  for (size_t q = 0; q < FOLD; q++)
+    for (int k = 0; k < dim * dim; k++) in[q][k] = F[k] + q * n;
+  GX_APART
+  for (size_t p = 0; p < n; p++) {
+    double square = 0, product = 1;
+    for (int q = 0; q < FOLD; q++) {
+      double f[GX_MAX_TENSOR], c[GX_MAX_TENSOR];
+      for (int k = 0; k < dim * dim; k++) {
+        f[k] = in[q][k][p];
+        square += f[k] * f[k];
+      }
+      product *= gx_tensor_cofactor(dim, f, c);
+    }
+    W[p] = mu * (0.5 * (square - FOLD * dim) - gx_logarithm(product));
+  }
+}
+
+GX_CLONES static void fold_energy(double mu, int dimension, size_t n, double *const *F, double *W)
+{
+  GX_FOR_DIM(dimension, energy_folded(dim, mu, n, F, W))
+}
+
+/* Of a piece whose length is a multiple of FOLD; the product of J may overflow where J does not. */
+static double total_of_piece(const struct gx_moduli *moduli, int dim, size_t n, double *const *F)
+{
+  double W[FOLD * GX_VECTOR_PIECE], sum = NAN;
+  if (moduli->lambda == 0) {
+    fold_energy(moduli->mu, dim, n / FOLD, F, W);
+    sum = gx_vector_sum(n / FOLD, W);
+  }
+  if (isfinite(sum)) return sum;
+  energy(moduli, dim, n, F, W);
+  return gx_vector_sum(n, W);
+}
+
+static double total(const struct gx_moduli *moduli, int dim, size_t n, double *const *F)
+{
+  double sum = 0, W[FOLD], *piece[GX_MAX_TENSOR];
+  const size_t rest = n % FOLD;
+  for (size_t from = 0; from < n; from += FOLD * GX_VECTOR_PIECE) {
+    const size_t left = n - rest - from, length = left < FOLD * GX_VECTOR_PIECE ? left : FOLD * GX_VECTOR_PIECE;
+    for (int k = 0; k < dim * dim; k++) piece[k] = F[k] + from;
+    if (from + rest < n) sum += total_of_piece(moduli, dim, length, piece);
+  }
+  for (int k = 0; k < dim * dim; k++) piece[k] = F[k] + n - rest;
+  if (rest > 0) energy(moduli, dim, rest, piece, W);
+  for (size_t p = 0; p < rest; p++) sum += W[p];
+  return sum;
+}
+
 static double wave_speed(const struct gx_moduli *moduli)
 {
   return sqrt((moduli->lambda + 2 * moduli->mu) / moduli->density);
@@ -121,5 +178,6 @@ const struct gx_material gx_neo_hookean = {
     .piola = piola,
     .piola_rate = piola_rate,
     .energy = energy,
+    .total = total,
     .wave_speed = wave_speed,
 };

@@ -138,12 +138,16 @@ GX_CLONES static void add_piece(struct norms *norms, size_t n, int components, d
 #undef ADD
 }
 
+void gx_errors_finish(double square, double most, size_t n, double *error)
+{
+  error[GX_INF] = sqrt(most);
+  error[GX_RMS] = sqrt(square / (double)n);
+  error[GX_L2N] = sqrt(square) / (double)n;
+}
+
 static void finish(const struct norms *norms, size_t n, double *error)
 {
-  const double sum = gx_vector_total(norms->parts);
-  error[GX_INF] = sqrt(norms->most);
-  error[GX_RMS] = sqrt(sum / (double)n);
-  error[GX_L2N] = sqrt(sum) / (double)n;
+  gx_errors_finish(gx_vector_total(norms->parts), norms->most, n, error);
 }
 
 /* other: NULL: the exact solution */

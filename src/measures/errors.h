@@ -20,6 +20,8 @@ void gx_errors_difference(const struct gx_errors_state *state, const struct gx_e
                           double error[GX_QUANTITIES][GX_NORMS]);
 /* As gx_measure_error. */
 void gx_errors_component(const struct gx_errors_state *state, enum gx_quantity quantity, int component, double *error);
+/* Norms of n errors from the sum and the largest of their squares. error: [GX_NORMS] */
+void gx_errors_finish(double square, double most, size_t n, double *error);
 /* Norms of n vectors. vector: [dim][n] */
 void gx_errors_of_vectors(size_t n, int dim, double *const *vector, double error[GX_NORMS]);
 

@@ -10,9 +10,12 @@
 #include "../core/kernel.h"
 #include "../core/large.h"
 #include "../core/vector.h"
+#include "bring.h"
+#include "crossings.h"
 #include "errors.h"
 #include "jump.h"
 #include "momentum.h"
+#include "potential.h"
 
 const struct gx_measure_name gx_measure_quantity[GX_QUANTITIES] = {
     [GX_DISPLACEMENT] = {"displacement", "m"}, [GX_VELOCITY] = {"velocity", "m/s"}, [GX_STRESS] = {"stress", "Pa"}};
@@ -28,6 +31,10 @@ struct gx_measure {
   bool started;
   int dim;
   size_t n;
+  double *kept;   /* [space->surveyed] of the last survey; NULL: particles are settled for samples */
+  bool unsettled; /* the last sample left the particles where they were */
+  double ahead;   /* s that velocities were behind then */
+  double mass;    /* of all particles, kg */
   /* at the last sample */
   struct vector_field v;           /* of the end of step, where that is not the particles'; before it is known, a */
   struct vector_field a, a_before; /* for the energy defect; a_before: one sample earlier */
@@ -60,7 +67,7 @@ static int take_rooms(struct gx_measure *measure)
 {
   const bool all = measure->level == GX_MEASURE_ALL, counted = measure->cells && measure->level != GX_MEASURE_FINAL;
   if ((measure->clock->staggered || all) && take_room(measure, &measure->v)) return -1;
-  if (all && (take_room(measure, &measure->a) || take_room(measure, &measure->a_before))) return -1;
+  if (!measure->kept && all && (take_room(measure, &measure->a) || take_room(measure, &measure->a_before))) return -1;
   return counted ? take_room(measure, &measure->cell) : 0;
 }
 
@@ -76,6 +83,8 @@ struct gx_measure *gx_measure_create(struct gx_space *space, const struct gx_clo
     level = GX_MEASURE_MAX; /* there is none to measure */
   *measure =
       (struct gx_measure){.space = space, .clock = clock, .level = level, .cells = cells, .followed = -1, .dim = dim, .n = n};
+  measure->mass = gx_vector_sum(n, space->particles->m);
+  if (space->surveyed > 0 && !cells) measure->kept = calloc(space->surveyed, sizeof(double)); /* else does without */
   if (take_rooms(measure)) {
     gx_measure_free(measure);
     return NULL;
@@ -97,6 +106,7 @@ void gx_measure_free(struct gx_measure *measure)
 {
   if (!measure) return;
   gx_jump_free(measure->jump);
+  free(measure->kept);
   free(measure->v.component[0]);
   free(measure->a.component[0]);
   free(measure->a_before.component[0]);
@@ -179,96 +189,81 @@ static struct gx_errors_state state_of(const struct gx_measure *measure, double 
   return (struct gx_errors_state){.space = measure->space, .v = velocity(measure), .t = t};
 }
 
-void gx_measure_error(const struct gx_measure *measure, enum gx_quantity quantity, int component, double *error)
+void gx_measure_settle(struct gx_measure *measure)
 {
+  struct gx_space *space = measure->space;
+  if (!measure->unsettled) return;
+  measure->unsettled = false;
+  if (space->kind->settle) space->kind->settle(space);
+  if (!measure->v.component[0]) return;
+  space->kind->particle_acceleration(space, measure->v.component);
+  for (int d = 0; d < measure->dim; d++) {
+    double *v = measure->v.component[d];
+    if (measure->followed >= 0) measure->probe_a[d] = v[measure->followed];
+    gx_bring(measure->n, measure->ahead, space->particles->v[d], v, v);
+  }
+}
+
+void gx_measure_error(struct gx_measure *measure, enum gx_quantity quantity, int component, double *error)
+{
+  gx_measure_settle(measure);
   const struct gx_errors_state state = state_of(measure, measure->result.last.time);
   gx_errors_component(&state, quantity, component, error);
 }
 
-void gx_measure_difference(const struct gx_measure *measure, const struct gx_measure *other,
-                           double error[GX_QUANTITIES][GX_NORMS])
+void gx_measure_difference(struct gx_measure *measure, struct gx_measure *other, double error[GX_QUANTITIES][GX_NORMS])
 {
+  gx_measure_settle(measure);
+  gx_measure_settle(other);
   const struct gx_errors_state state = state_of(measure, measure->result.last.time),
                                others = state_of(other, other->result.last.time);
   gx_errors_difference(&state, &others, error);
 }
 
-static double potential(const struct gx_measure *measure)
-{
-  const struct gx_space *space = measure->space;
-  const struct gx_particles *particles = space->particles;
-  const struct gx_posed *posed = space->posed;
-  if (space->kind->potential) return space->kind->potential(space);
-  double W[GX_VECTOR_PIECE], parts[GX_VECTOR_LANES] = {0}, *F[GX_MAX_TENSOR];
-  for (size_t from = 0; from < measure->n; from += GX_VECTOR_PIECE) {
-    const size_t n = gx_vector_piece(measure->n, from);
-    for (int k = 0; k < measure->dim * measure->dim; k++) F[k] = particles->F[k] + from;
-    posed->problem->material->energy(&posed->options.moduli, measure->dim, n, F, W);
-    gx_vector_dot_piece(n, W, particles->V0 + from, parts);
-  }
-  return gx_vector_total(parts);
-}
+/* Of a sample, over the particles. */
+struct totals {
+  struct gx_momentum momentum;
+  double elastic, defect; /* defect: W, of the step's energy */
+};
 
-static void energies(const struct gx_measure *measure, double dt, double defect, double kinetic, struct gx_sample *sample)
+static void energies(const struct gx_measure *measure, double dt, const struct totals *totals, struct gx_sample *sample)
 {
   const struct gx_particles *particles = measure->space->particles;
-  sample->kinetic = kinetic;
-  sample->elastic = potential(measure);
+  sample->kinetic = totals->momentum.kinetic;
+  sample->elastic = totals->elastic;
   sample->kinetic_nodes = measure->space->kind->kinetic(measure->space);
-  sample->defect = measure->started ? fabs(dt * defect) : NAN;
+  sample->defect = measure->started ? fabs(dt * totals->defect) : NAN;
   sample->work = measure->work;
   if (measure->clock->staggered && measure->space->posed->problem->body)
     /* the half kick that the sample's velocity is ahead of the run's */
     sample->work += 0.25 * dt * (body_power(measure, 0, particles->v) + body_power(measure, 0.5 * dt, measure->v.component));
 }
 
-/* now = v + ahead a; now may be a */
-GX_CLONES static void bring(size_t n, double ahead, const double *v, const double *a, double *now)
-{
-  GX_APART for (size_t p = 0; p < n; p++) now[p] = v[p] + ahead * a[p];
-}
-
-/* The same from velocities held to those at the end of step, v, and term = m (half v0, or a quarter of v - v0) (a - a0), where v0 is
- * v before. */
-GX_CLONES static void bring_with_terms(size_t n, bool first_order, double ahead, const double *restrict m,
-                                       const double *restrict held, const double *restrict a0, const double *restrict a,
-                                       double *restrict v, double *restrict term)
-{
-  for (size_t p = 0; p < n; p++) {
-    double now = held[p] + ahead * a[p];
-    term[p] = m[p] * (first_order ? 0.5 * v[p] : 0.25 * (now - v[p])) * (a[p] - a0[p]);
-    v[p] = now;
-  }
-}
-
 /* Velocities at the end of step, where energies are measured. Returns the sum of terms of the step's energy defect. */
-static double bring_all(struct gx_measure *measure, double ahead)
+static double bring_all(struct gx_measure *measure)
 {
   const struct gx_particles *particles = measure->space->particles;
-  double defect = 0, term[GX_VECTOR_PIECE];
+  double defect = 0;
   for (int d = 0; d < measure->dim; d++) {
-    double parts[GX_VECTOR_LANES] = {0};
-    for (size_t from = 0; from < measure->n; from += GX_VECTOR_PIECE) {
-      const size_t n = gx_vector_piece(measure->n, from);
-      bring_with_terms(n, measure->clock->first_order_defect, ahead, particles->m + from, particles->v[d] + from,
-                       measure->a_before.component[d] + from, measure->a.component[d] + from, measure->v.component[d] + from,
-                       term);
-      gx_vector_sum_piece(n, term, parts);
-    }
-    defect += gx_vector_total(parts);
+    const struct gx_bring_step step = {measure->n,
+                                       particles->m,
+                                       particles->v[d],
+                                       measure->a_before.component[d],
+                                       measure->a.component[d],
+                                       measure->v.component[d]};
+    defect += gx_bring_on(&step, measure->ahead, measure->clock->first_order_defect);
   }
   return defect;
 }
 
-/* Velocity and acceleration of the particles at the end of step, and the stress that belongs to their F. ahead: s that velocities are
- * behind. defect: as bring_all. */
-static enum gx_status synchronise(struct gx_measure *measure, struct gx_stepper *stepper, double t, double ahead, double *defect)
+/* Velocity and acceleration of the particles at the end of step, and the stress that belongs to their F. Returns as bring_all. */
+static double synchronise(struct gx_measure *measure)
 {
   struct gx_space *space = measure->space;
   const bool all = measure->level == GX_MEASURE_ALL;
-  GX_TRY(gx_stepper_accelerate(stepper, t));
+  measure->unsettled = false;
   if (space->kind->settle) space->kind->settle(space);
-  if (!measure->v.component[0]) return GX_OK;
+  if (!measure->v.component[0]) return 0;
   if (all) {
     const struct vector_field before = measure->a;
     measure->a = measure->a_before;
@@ -277,47 +272,45 @@ static enum gx_status synchronise(struct gx_measure *measure, struct gx_stepper 
   double *const *a = all ? measure->a.component : measure->v.component;
   space->kind->particle_acceleration(space, a);
   for (int d = 0; d < measure->dim && measure->followed >= 0; d++) measure->probe_a[d] = a[d][measure->followed];
-  if (all) *defect = bring_all(measure, ahead);
-  for (int d = 0; d < measure->dim && !all; d++) bring(measure->n, ahead, space->particles->v[d], a[d], measure->v.component[d]);
-  return GX_OK;
+  if (all) return bring_all(measure);
+  for (int d = 0; d < measure->dim; d++)
+    gx_bring(measure->n, measure->ahead, space->particles->v[d], a[d], measure->v.component[d]);
+  return 0;
 }
 
-GX_CLONES static double moved_cell(size_t n, const double *restrict X, const double *restrict u, double cells,
-                                   double *restrict cell)
+/* Errors and, where energies are measured, totals of the particles as they are settled for it; */
+static void take_particles(struct gx_measure *measure, double t, struct gx_sample *sample, struct totals *totals)
 {
-  double moved = 0;
-  for (size_t p = 0; p < n; p++) {
-    double now = floor((X[p] + u[p]) * cells);
-    moved += now != cell[p];
-    cell[p] = now;
-  }
-  return moved;
+  totals->defect = synchronise(measure);
+  const struct gx_errors_state state = state_of(measure, t);
+  gx_errors_norms(&state, sample->error);
+  if (measure->level != GX_MEASURE_ALL) return;
+  totals->momentum = gx_momentum_of(measure->space->particles, measure->v.component);
+  totals->elastic = gx_potential_of(measure->space);
 }
 
-/* The same for cells that end at given edges. */
-static double moved_edges(size_t n, const double *X, const double *u, const struct gx_space *space, double *cell)
+/* or of the space alone. */
+static void take_survey(struct gx_measure *measure, double t, struct gx_sample *sample, struct totals *totals)
 {
-  double moved = 0;
-  for (size_t p = 0; p < n; p++) {
-    size_t now = 0;
-    while (now < space->edges && X[p] + u[p] >= space->edge[now]) now++;
-    moved += (double)now != cell[p];
-    cell[p] = (double)now;
-  }
-  return moved;
+  struct gx_survey survey = {.t = t,
+                             .ahead = measure->ahead,
+                             .energies = measure->level == GX_MEASURE_ALL,
+                             .first_order = measure->clock->first_order_defect,
+                             .kept = measure->kept};
+  measure->unsettled = true;
+  measure->space->kind->survey(measure->space, &survey);
+  if (measure->followed >= 0) gx_measure_settle(measure);
+  for (int q = 0; q < GX_QUANTITIES; q++) gx_errors_finish(survey.square[q], survey.most[q], measure->n, sample->error[q]);
+  *totals = (struct totals){.elastic = survey.elastic, .defect = survey.defect};
+  memcpy(totals->momentum.linear, survey.momentum, sizeof survey.momentum);
+  totals->momentum.kinetic = survey.kinetic;
+  totals->momentum.linear_size = sqrt(2 * measure->mass * survey.kinetic);
 }
 
 static double crossings(struct gx_measure *measure)
 {
-  const struct gx_space *space = measure->space;
-  const struct gx_particles *particles = space->particles;
   if (!measure->cell.component[0]) return measure->result.last.crossings;
-  double moved = 0;
-  for (int d = 0; d < measure->dim; d++) {
-    const double *X = particles->X[d], *u = particles->u[d];
-    double *cell = measure->cell.component[d];
-    moved += space->edge ? moved_edges(measure->n, X, u, space, cell) : moved_cell(measure->n, X, u, measure->cells[d], cell);
-  }
+  const double moved = gx_crossings_count(measure->space, measure->cells, measure->cell.component);
   return measure->started ? measure->result.last.crossings + moved : 0;
 }
 
@@ -410,10 +403,10 @@ static void keep_extremes(struct gx_measure *measure, const struct gx_sample *sa
 }
 
 /* Of the sample and, largest so far, relative to the largest sizes so far. */
-static void momenta(struct gx_measure *measure, double ahead, struct gx_momentum now, struct gx_sample *sample)
+static void momenta(struct gx_measure *measure, struct gx_momentum now, struct gx_sample *sample)
 {
   struct gx_space *space = measure->space;
-  if (space->kind->spin) space->kind->spin(space, ahead, now.angular);
+  if (space->kind->spin) space->kind->spin(space, measure->ahead, now.angular);
   memcpy(sample->momentum, now.linear, sizeof sample->momentum);
   memcpy(sample->angular, now.angular, sizeof sample->angular);
   if (!measure->started) {
@@ -432,7 +425,7 @@ static void momenta(struct gx_measure *measure, double ahead, struct gx_momentum
 
 enum gx_status gx_measure_take(struct gx_measure *measure, struct gx_stepper *stepper, double t, double dt)
 {
-  double cell[GX_MAX_DIM], defect = 0; /* cell: of the probe at the last sample */
+  double cell[GX_MAX_DIM]; /* of the probe at the last sample */
   struct gx_sample sample = {.time = t,
                              .kinetic = NAN,
                              .kinetic_nodes = NAN,
@@ -443,14 +436,16 @@ enum gx_status gx_measure_take(struct gx_measure *measure, struct gx_stepper *st
                              .angular = {NAN, NAN, NAN},
                              .jump = {NAN, NAN, NAN},
                              .jump_step = NAN};
-  double ahead = measure->clock->staggered ? 0.5 * dt : 0;
-  GX_TRY(synchronise(measure, stepper, t, ahead, &defect));
-  const struct gx_errors_state state = state_of(measure, t);
-  gx_errors_norms(&state, sample.error);
+  struct totals totals = {.defect = 0};
+  measure->ahead = measure->clock->staggered ? 0.5 * dt : 0;
+  GX_TRY(gx_stepper_accelerate(stepper, t));
+  if (measure->kept)
+    take_survey(measure, t, &sample, &totals);
+  else
+    take_particles(measure, t, &sample, &totals);
   if (measure->level == GX_MEASURE_ALL) {
-    const struct gx_momentum now = gx_momentum_of(measure->space->particles, measure->v.component);
-    energies(measure, dt, defect, now.kinetic, &sample);
-    if (!measure->space->posed->problem->space) momenta(measure, ahead, now, &sample);
+    energies(measure, dt, &totals, &sample);
+    if (!measure->space->posed->problem->space) momenta(measure, totals.momentum, &sample);
   }
   if (measure->jump) {
     gx_errors_of_vectors(measure->n, measure->dim, measure->jump->sum, sample.jump);
@@ -470,8 +465,11 @@ void gx_measure_image(struct gx_measure *measure, struct gx_image *image)
   struct vector_field *const field[] = {&measure->v, &measure->a, &measure->cell};
   for (size_t i = 0; i < sizeof field / sizeof *field; i++)
     if (field[i]->component[0]) gx_image_reals(image, measure->dim, field[i]->component, measure->n);
+  if (measure->kept) gx_image_reals(image, 1, &measure->kept, measure->space->surveyed);
   if (measure->jump) gx_jump_image(measure->jump, image);
   GX_IMAGE(image, measure->started);
+  GX_IMAGE(image, measure->unsettled);
+  GX_IMAGE(image, measure->ahead);
   GX_IMAGE(image, measure->probe);
   GX_IMAGE(image, measure->work);
   GX_IMAGE(image, measure->start_energy);

@@ -11,7 +11,7 @@
 
 struct gx_snapshot_maker {
   struct gx_space *space; /* borrowed, as the next two */
-  const struct gx_measure *measure;
+  struct gx_measure *measure;
   const struct gx_mesh *mesh; /* NULL: no grid */
   double behind;              /* velocities are so many time steps behind */
   struct gx_arena arena;      /* all arrays below */
@@ -131,8 +131,8 @@ static int lay_out_vertices(struct gx_snapshot_maker *maker, const int *cells)
   return gx_mesh_volumes(maker->mesh, maker->volumes);
 }
 
-struct gx_snapshot_maker *gx_snapshot_create(struct gx_space *space, const struct gx_clock *clock,
-                                             const struct gx_measure *measure, const int *cells)
+struct gx_snapshot_maker *gx_snapshot_create(struct gx_space *space, const struct gx_clock *clock, struct gx_measure *measure,
+                                             const int *cells)
 {
   struct gx_snapshot_maker *maker = calloc(1, sizeof *maker);
   if (!maker) return NULL;
@@ -217,6 +217,7 @@ const struct gx_snapshot *gx_snapshot_take(struct gx_snapshot_maker *maker, doub
     for (int k = 0; k < sets[i]->count; k++)
       for (size_t l = 0; l < 2; l++)
         if (!strcmp(sets[i]->record[k].name, lagging[l])) sets[i]->record[k].offset = -maker->behind * dt;
+  gx_measure_settle(maker->measure);
   take_particles(maker, time);
   if (!mesh) return snapshot;
   gx_mesh_field_at(mesh, mesh->v, snapshot->vertices.n, maker->point, maker->field[VELOCITY]);

@@ -146,7 +146,7 @@ static unsigned parity_of(const struct gx_spectrum *spectrum, enum gx_quantity q
   return 1U << component / spectrum->dim ^ 1U << component % spectrum->dim;
 }
 
-void gx_spectrum_take(struct gx_spectrum *spectrum, const struct gx_measure *measure, double *rms)
+void gx_spectrum_take(struct gx_spectrum *spectrum, struct gx_measure *measure, double *rms)
 {
   for (int q = 0; q < GX_QUANTITIES; q++, rms += spectrum->bins) {
     int components = q == GX_STRESS ? spectrum->dim * spectrum->dim : spectrum->dim;

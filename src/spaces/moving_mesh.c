@@ -54,6 +54,8 @@ static enum gx_status create(const struct gx_space_kind *kind, struct gx_space *
   if (!options->reconstructed) mesh->lattice = gx_lattice_create(&mesh->grid, options->basis, particles, options->team);
   if (mesh->lattice && particles->dim == 1 && !options->stress_rate)
     ((struct moving_mesh *)mesh)->slots = gx_slots_create(gx_lattice_line(mesh->lattice), particles, posed);
+  if (((struct moving_mesh *)mesh)->slots && !options->each_step && posed->problem->exact && posed->problem->material->piola)
+    mesh->space.surveyed = gx_slots_survey_keeps(((struct moving_mesh *)mesh)->slots);
   return GX_OK;
 }
 
@@ -389,7 +391,7 @@ static bool power(struct gx_space *space, double ahead, double *power)
   if (!moving->load) return false;
   for (int d = 0; d < mesh->grid.dim; d++) load[d] = moving->load + (size_t)d * stored;
   if (!moving->loaded && moving->slots)
-    gx_slots_force(moving->slots, NULL, moving->accelerated, load[0]);
+    gx_slots_force_body(moving->slots, moving->accelerated, load[0]);
   else if (!moving->loaded)
     gx_lattice_run(mesh->lattice, &(struct gx_lattice_pass){.sum = load, .body = true, .visit = load_body, .context = moving});
   moving->loaded = true;
@@ -397,6 +399,13 @@ static bool power(struct gx_space *space, double ahead, double *power)
   for (int d = 0; d < mesh->grid.dim; d++)
     *power += gx_vector_dot(stored, load[d], mesh->v[d]) + (ahead != 0 ? ahead * gx_vector_dot(stored, load[d], mesh->a[d]) : 0);
   return true;
+}
+
+static void survey(struct gx_space *space, struct gx_survey *survey)
+{
+  const struct moving_mesh *moving = (const struct moving_mesh *)space;
+  const struct gx_mesh *mesh = &moving->mesh;
+  gx_slots_survey(moving->slots, &(struct gx_slots_nodes){mesh->mass, mesh->u[0], mesh->v[0], mesh->a[0]}, survey);
 }
 
 static void state(struct gx_space *space, struct gx_state *list)
@@ -463,6 +472,7 @@ const struct gx_space_kind gx_moving_mesh = {
     .settle = settle,
     .power = power,
     .spin = gx_affine_spin,
+    .survey = survey,
     .particle_acceleration = particle_acceleration,
     .field = gx_mesh_field,
 };

@@ -7,7 +7,7 @@
 #ifndef GRIDCROSS_SPACES_SLOTS_H
 #define GRIDCROSS_SPACES_SLOTS_H
 
-#include <gridcross/problem.h>
+#include <gridcross/space.h>
 
 #include "lattice.h"
 
@@ -20,10 +20,18 @@ struct gx_slots *gx_slots_create(const struct gx_lattice_line *line, const struc
 void gx_slots_free(struct gx_slots *slots);
 /* Nodal fields, [nodes], have room for eight entries that may be read behind them and do not count. */
 
-/* force at time t with P of F; u NULL: the share of the body force alone. Returns whether every F is that of a body that is not
- * tangled. */
+/* force at time t with P of F. Returns whether every F is that of a body that is not tangled. */
 bool gx_slots_force(struct gx_slots *slots, const double *u, double t, double *force);
+/* The body force's share of the last one, at that time. */
+void gx_slots_force_body(struct gx_slots *slots, double t, double *force);
 /* value and F of the particles in their own order; either may be NULL. */
 void gx_slots_gather(const struct gx_slots *slots, const double *field, double *value, double *F);
+/* Row sums of mass, and the state. */
+struct gx_slots_nodes {
+  const double *mass, *u, *v, *a;
+};
+/* Right after a force of the same u. survey->kept: as many numbers as this keeps. */
+size_t gx_slots_survey_keeps(const struct gx_slots *slots);
+void gx_slots_survey(struct gx_slots *slots, const struct gx_slots_nodes *nodes, struct gx_survey *survey);
 
 #endif

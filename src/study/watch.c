@@ -7,7 +7,7 @@
 #include "kept.h"
 
 enum gx_status gx_watch_begin(struct gx_watch *watch, const struct gx_simulation *simulation, const struct gx_case *one,
-                              const struct gx_measure *measure, const struct gx_observer *observer, struct gx_outcome *outcome)
+                              struct gx_measure *measure, const struct gx_observer *observer, struct gx_outcome *outcome)
 {
   const struct gx_value *keep = &one->value[GX_OUTPUT_CHECKPOINT];
   const double every = gx_kept_snapshots_every(one);

@@ -17,7 +17,7 @@ struct gx_watch {
 
 /* measure: of the simulation, from which snapshots are taken. observer: NULL: nobody. */
 enum gx_status gx_watch_begin(struct gx_watch *watch, const struct gx_simulation *simulation, const struct gx_case *one,
-                              const struct gx_measure *measure, const struct gx_observer *observer, struct gx_outcome *outcome);
+                              struct gx_measure *measure, const struct gx_observer *observer, struct gx_outcome *outcome);
 /* Whether the state after a step is shown. */
 bool gx_watch_is_due(const struct gx_watch *watch, double step, bool last);
 /* Shows it, once the measure has taken a sample there. */

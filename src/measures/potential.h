@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Potential energy of a space whose particles are settled. */
+#ifndef GRIDCROSS_MEASURES_POTENTIAL_H
+#define GRIDCROSS_MEASURES_POTENTIAL_H
+
+#include <gridcross/space.h>
+
+/* The space's own or the strain energy, J. */
+double gx_potential_of(const struct gx_space *space);
+
+#endif
