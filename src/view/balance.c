@@ -268,7 +268,7 @@ static int check(const struct fit *fit, const char *name, FILE *errors)
             "%s: a method has no error in any single step: none of its cases take one, or the exact solution does not accelerate "
             "at the start; choose another time.start or a smaller time.dt\n",
             name);
-    return -1;
+    return 1;
   }
   const char *lacks = fit->space.count < 3 ? "mesh.cells" : fit->time.count < 3 || fit->step.count < 1 ? "time.dt" : NULL;
   if (!lacks) return 0;

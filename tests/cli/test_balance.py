@@ -85,6 +85,7 @@ class Balance(unittest.TestCase):
         told = self.call("balance", file, code=2).stderr
         self.assertIn("time.start", told)
         self.assertNotIn("a list of three", told)
+        self.assertNotIn("memory", told)
         self.call("balance", file, "--set", "time.start=2e-3")
 
     def test_a_run_names_what_dominates(self):
