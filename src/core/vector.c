@@ -113,13 +113,30 @@ GX_CLONES double gx_vector_weighted(size_t n, const double *weight, const double
   return total_of(sum);
 }
 
-GX_CLONES double gx_vector_max(size_t n, const double *restrict value)
+typedef long long truths __attribute__((vector_size(HALF * sizeof(double))));
+
+GX_CORE void keep_larger(size_t some, const double *x, half *most)
 {
-  double part[LANES] = {0}, most = 0;
-  size_t whole = n - n % LANES;
-  for (size_t i = 0; i < whole; i += LANES)
-    for (size_t k = 0; k < LANES; k++) part[k] = value[i + k] > part[k] ? value[i + k] : part[k];
-  for (size_t i = whole; i < n; i++) most = value[i] > most ? value[i] : most;
-  for (int k = 0; k < LANES; k++) most = part[k] > most ? part[k] : most;
+  half value = {0};
+  load(some, x, &value);
+  const truths larger = value > *most;
+  *most = (half)(((truths)value & larger) | ((truths)*most & ~larger));
+}
+
+GX_CLONES double gx_vector_max(size_t n, const double *value)
+{
+  half low = {0}, high = {0};
+  const size_t whole = n - n % LANES, left = n - whole;
+  for (size_t i = 0; i < whole; i += LANES) {
+    keep_larger(HALF, value + i, &low);
+    keep_larger(HALF, value + i + HALF, &high);
+  }
+  if (left > 0) keep_larger(left < HALF ? left : HALF, value + whole, &low);
+  if (left > HALF) keep_larger(left - HALF, value + whole + HALF, &high);
+  double most = 0;
+  for (int k = 0; k < HALF; k++) {
+    most = low[k] > most ? low[k] : most;
+    most = high[k] > most ? high[k] : most;
+  }
   return most;
 }

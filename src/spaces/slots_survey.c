@@ -122,32 +122,6 @@ static double energy(const struct gx_slots *slots, const struct gx_slots_stretch
   return gx_vector_dot(n, W, slots->V0 + stretch->at);
 }
 
-/* Over the cells of the tally. */
-GX_CLONES static void add_up(size_t cells, const double *restrict tally, double *restrict square, double *restrict most)
-{
-  double sum[GX_QUANTITIES][GX_VECTOR_LANES] = {{0}}, largest[GX_QUANTITIES][GX_VECTOR_LANES] = {{0}};
-  const size_t whole = cells - cells % GX_VECTOR_LANES;
-  for (size_t q = 0; q < GX_QUANTITIES; q++) {
-    const double *restrict squares = tally + q * GX_SLOTS_ROW, *restrict more = squares + GX_QUANTITIES * GX_SLOTS_ROW;
-    for (size_t i = 0; i < whole; i += GX_VECTOR_LANES)
-      for (size_t k = 0; k < GX_VECTOR_LANES; k++) {
-        sum[q][k] += squares[i + k];
-        largest[q][k] = more[i + k] > largest[q][k] ? more[i + k] : largest[q][k];
-      }
-    for (size_t i = whole, k = 0; i < cells; i++, k++) {
-      sum[q][k] += squares[i];
-      largest[q][k] = more[i] > largest[q][k] ? more[i] : largest[q][k];
-    }
-    for (size_t k = GX_VECTOR_LANES / 2; k > 0; k /= 2)
-      for (size_t l = 0; l < k; l++) {
-        sum[q][l] += sum[q][l + k];
-        largest[q][l] = largest[q][l + k] > largest[q][l] ? largest[q][l + k] : largest[q][l];
-      }
-    square[q] = sum[q][0];
-    most[q] = largest[q][0];
-  }
-}
-
 static void find_errors(struct gx_slots *slots, const double *u, const double *v, struct gx_survey *survey)
 {
   const bool elastic = survey->energies && slots->posed->problem->material->energy;
@@ -159,7 +133,11 @@ static void find_errors(struct gx_slots *slots, const double *u, const double *v
     compare_stretch(slots, &stretch, u + slots->base + from, v + slots->base + from);
     if (elastic) survey->elastic += energy(slots, &stretch);
   }
-  add_up((size_t)gx_slots_stretch_from(slots, 0).cells, slots->tally, survey->square, survey->most);
+  const size_t cells = (size_t)gx_slots_stretch_from(slots, 0).cells;
+  for (int q = 0; q < GX_QUANTITIES; q++) {
+    survey->square[q] = gx_vector_sum(cells, slots->tally + q * GX_SLOTS_ROW);
+    survey->most[q] = gx_vector_max(cells, slots->tally + (GX_QUANTITIES + q) * GX_SLOTS_ROW);
+  }
 }
 
 /* Terms of sum over particles of m_p x_p y_p with x_p = sum_i x_i S_ip, where x and y are v, and two more fields. What is read behind the
