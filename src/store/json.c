@@ -4,18 +4,23 @@
 
 #include <math.h>
 
+#include "../core/utf8.h"
+
 static void write_text(const char *text, FILE *out)
 {
   putc('"', out);
-  for (const char *c = text; *c; c++) {
+  for (const char *c = text; *c;) {
+    unsigned long point = 0;
+    const int length = gx_utf8_length(c, &point);
     if (*c == '"' || *c == '\\')
       fprintf(out, "\\%c", *c);
     else if (*c == '\n')
       fputs("\\n", out);
-    else if ((unsigned char)*c < 0x20)
-      fprintf(out, "\\u%04x", (unsigned char)*c);
+    else if (!length || point < 0x20) /* a byte that is none of UTF-8 becomes U+FFFD */
+      fprintf(out, "\\u%04lx", length ? point : 0xFFFDul);
     else
-      putc(*c, out);
+      fwrite(c, 1, (size_t)length, out);
+    c += length ? length : 1;
   }
   putc('"', out);
 }

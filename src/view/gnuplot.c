@@ -11,15 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* Bytes of a well-formed UTF-8 character, 0: it is none. */
-static size_t character(const char *text)
-{
-  const unsigned char *c = (const unsigned char *)text;
-  size_t length = *c < 0x80 ? 1 : *c >= 0xC2 && *c < 0xE0 ? 2 : *c >= 0xE0 && *c < 0xF0 ? 3 : *c >= 0xF0 && *c < 0xF5 ? 4 : 0;
-  for (size_t i = 1; i < length; i++)
-    if ((c[i] & 0xC0) != 0x80) return 0;
-  return length;
-}
+#include "../core/utf8.h"
 
 /* In double quotes: single ones would be simpler, were it not that gnuplot 5.4 ends '''' after two. */
 void gx_gnuplot_quote(const char *text, size_t length, FILE *out)
@@ -29,15 +21,19 @@ void gx_gnuplot_quote(const char *text, size_t length, FILE *out)
 
 void gx_gnuplot_part(const char *text, size_t bytes, FILE *out)
 {
-  const char *end = text + bytes;
-  for (size_t length; text < end; text += length ? length : 1) {
-    length = character(text);
-    if (length == 0)
+  const char *begin = text, *end = text + bytes;
+  unsigned long point;
+  for (int length; text < end; text += length ? length : 1) {
+    length = gx_utf8_length(text, &point);
+    if (length == 0) {
       putc('?', out);
-    else if ((unsigned char)*text < ' ' || *text == 0x7F)
+    } else if ((unsigned char)*text < ' ' || *text == 0x7F) {
       putc(' ', out);
-    else
-      gx_gnuplot_quote(text, length, out);
+    } else {
+      if (*text == '>' && text - begin >= 2 && !strncmp(text - 2, "]]", 2))
+        putc(' ', out); /* ]]> may not be in SVG: gnuplot leaves it */
+      gx_gnuplot_quote(text, (size_t)length, out);
+    }
   }
 }
 

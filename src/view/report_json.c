@@ -5,28 +5,15 @@
 #include <math.h>
 #include <string.h>
 
+#include "../core/utf8.h"
 #include "sheet.h"
-
-/* Length of the UTF-8 sequence at c, and its code point; 0: it is none. */
-static int decode(const unsigned char *c, unsigned long *point)
-{
-  static const unsigned long least[] = {0, 0, 0x80, 0x800, 0x10000};
-  int length = c[0] < 0x80 ? 1 : c[0] >> 5 == 0x6 ? 2 : c[0] >> 4 == 0xE ? 3 : c[0] >> 3 == 0x1E ? 4 : 0;
-  if (!length) return 0;
-  *point = length == 1 ? c[0] : c[0] & (0x7Fu >> length);
-  for (int i = 1; i < length; i++) {
-    if ((c[i] & 0xC0) != 0x80) return 0;
-    *point = *point << 6 | (c[i] & 0x3Fu);
-  }
-  return *point < least[length] || *point > 0x10FFFF || (*point >= 0xD800 && *point <= 0xDFFF) ? 0 : length;
-}
 
 static void write_text(const char *text, FILE *out)
 {
   putc('"', out);
-  for (const unsigned char *c = (const unsigned char *)text; *c;) {
+  for (const char *c = text; *c;) {
     unsigned long point = 0xFFFD;
-    int length = decode(c, &point);
+    int length = gx_utf8_length(c, &point);
     bool line_end = point == 0x2028 || point == 0x2029;
     if (!length || point < 0x20 || point == 0x7F || line_end || strchr("<>&\"\\'", (int)(point < 0x80 ? point : 'a')))
       fprintf(out, "\\u%04lx", length ? point : 0xFFFDul);
@@ -85,9 +72,9 @@ void gx_report_json_integer(struct gx_report_json *json, const char *key, long n
 
 void gx_report_json_escape(const char *text, FILE *out)
 {
-  for (const unsigned char *c = (const unsigned char *)text; *c;) {
+  for (const char *c = text; *c;) {
     unsigned long point = 0xFFFD;
-    int length = decode(c, &point);
+    int length = gx_utf8_length(c, &point);
     if (!length)
       fputs("\xEF\xBF\xBD", out);
     else if (strchr("<>&\"'", (int)(point < 0x80 ? point : 'a')))
