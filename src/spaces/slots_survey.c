@@ -184,7 +184,8 @@ GX_CLONES static void bring(size_t n, double ahead, bool first_order, const doub
 
 size_t gx_slots_survey_keeps(const struct gx_slots *slots)
 {
-  return 2 * (size_t)slots->nodes;
+  enum { BEHIND = 8 }; /* entries that may be read behind a nodal field: behind v are those of a, which are fewer on few cells */
+  return 2 * (size_t)slots->nodes + BEHIND;
 }
 
 void gx_slots_survey(struct gx_slots *slots, const struct gx_slots_nodes *nodes, struct gx_survey *survey)
