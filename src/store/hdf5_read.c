@@ -82,7 +82,7 @@ hid_t gx_hdf5_read_open(const char *path, FILE *errors)
   hid_t provenance = gx_handle_open_group(file, "provenance"), table = gx_handle_open_group(file, "table");
   bool ours = provenance >= 0 && table >= 0 && !gx_handle_get_integer(provenance, "format", &format);
   if (!ours)
-    fprintf(errors, "%s: is not a study that gridcross wrote\n", path);
+    fprintf(errors, "%s: is not a study, or is damaged" GX_SEAL_REMEDY "\n", path);
   else if (format != GX_HDF5_FORMAT)
     fprintf(errors, "%s: has format %lld; this gridcross reads format %d\n", path, (long long)format, GX_HDF5_FORMAT);
   if (table >= 0) H5Gclose(table);

@@ -32,12 +32,13 @@ class Faults(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.dir = pathlib.Path(temporary.name)
         (self.dir / "study.yaml").write_text(STUDY)
+        self.faults = shutil.copy(FAULTS, self.dir)  # a blank in its path would end it
 
     def run_program(self, *args, **faults):
         environment = dict(os.environ)
         if faults:  # a sanitizer wants to be the first that is preloaded
             environment["ASAN_OPTIONS"] = environment.get("ASAN_OPTIONS", "") + ":verify_asan_link_order=0"
-            environment["LD_PRELOAD"] = str(FAULTS)
+            environment["LD_PRELOAD"] = str(self.faults)
             environment.update((f"FAULTS_{name.upper()}", str(value)) for name, value in faults.items())
         return subprocess.run([PROGRAM, *args], cwd=self.dir, env=environment, capture_output=True, text=True, timeout=300)
 

@@ -15,6 +15,10 @@ import tempfile
 import time
 import unittest
 
+sys.dont_write_bytecode = True  # beside the sources
+
+from seal import sealed
+
 try:
     import h5py
 except ImportError:  # another Python than the system's
@@ -339,7 +343,8 @@ class Places(Case):
                 err = (self.dir / "small.err").read_text()
                 self.assertIn("No space left on device", err)
                 self.assertIn("--resume", err)
-                self.assertTrue(all(n.startswith((".journal-", "case-")) for n in (self.dir / "small.names").read_text().split()))
+                names = (self.dir / "small.names").read_text().split()
+                self.assertEqual([n for n in names if not n.startswith((".journal-", ".case-", "case-"))], [])
                 self.assertTrue(self.bytes_of("big") == whole)
 
 
@@ -405,8 +410,11 @@ class Shards(Case):
         shutil.copytree(self.dir / two, self.dir / "twice")
         path = self.dir / "twice" / "study.h5"
         old = path.read_bytes()
-        path.write_bytes(old.replace(b"killed", b"kilLed", 1))
+        self.assertEqual(sealed(old), old)
+        path.write_bytes(sealed(old.replace(b"killed", b"kilLed", 1)))
         self.assertIn("its results differ", self.call("merge", one, two, "twice", "-o", "out", code=2).stderr)
+        path.write_bytes(old.replace(b"killed", b"kilLed", 1))
+        self.assertIn("damaged: copy it again", self.call("merge", one, two, "twice", "-o", "out", code=2).stderr)
         path.write_bytes(old[: len(old) // 2])
         self.assertIn("twice", self.call("merge", one, two, "twice", "-o", "out", code=2).stderr)
         shutil.rmtree(self.dir / self.place(3))
