@@ -9,7 +9,9 @@ import sys
 import unittest
 
 sys.dont_write_bytecode = True
-from studied import PROGRAM, Studied, seal
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+from seal import seal
+from studied import PROGRAM, Studied
 
 PROGRAM, ROOT = (pathlib.Path(a).resolve() for a in sys.argv[1:3])
 STUDY = """title: small
