@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Breaks one coefficient at a time and asserts that at least one gate of the papers fails each time.
 
-usage: mutations.py SOURCE_ROOT [NAME...]"""
+usage: mutations.py SOURCE_ROOT [NAME...]
+       mutations.py SOURCE_ROOT --texts    only whether each text stands in its file"""
 import pathlib
 import shutil
 import subprocess
@@ -11,8 +12,8 @@ import tempfile
 # name: file, text, its replacement, items that must notice. The text must stand exactly once in the file.
 MUTATIONS = {
     "an RKN weight by 0.1 %": ("src/clocks/rkn4.c", "0.338978026553643355", "0.339317004580197", ["berzins2021/table3"]),
-    "the B-spline centre by h/2": ("src/spaces/line_core.h", "*s = inside * *cells;", "*s = inside * *cells + 0.5;",
-                                   ["steffen2010/table2", "steffen2010/fig12"]),
+    "the B-spline centre by h/2": ("src/spaces/line_core.h", "*s = (periodic ? *x - whole : *x) * *cells;",
+                                   "*s = (periodic ? *x - whole : *x) * *cells + 0.5;", ["steffen2010/table2", "steffen2010/fig12"]),
     "no F in V = F V0": ("src/spaces/line_core.h", "T = -V0 * (P * F);", "T = -V0 * P;", ["steffen2010/fig13b", "steffen2010/table2"]),
 }
 
@@ -23,6 +24,12 @@ def run(*command, cwd):
 
 def not_source(folder, names):
     return [n for n in names if n == ".git" or n.endswith(".study") or (pathlib.Path(folder) / n / "build.ninja").exists()]
+
+
+def misplaced(source):
+    """Texts that do not stand once."""
+    counts = {name: (source / path).read_text().count(text) for name, (path, text, *_) in MUTATIONS.items()}
+    return [f"{name}: its text stands {count} times in {MUTATIONS[name][0]}" for name, count in counts.items() if count != 1]
 
 
 def build(root):
@@ -37,6 +44,9 @@ def missed(root, items):
 
 
 def main(source, wanted):
+    wrong = misplaced(source)
+    if wrong or wanted == ["--texts"]:
+        sys.exit("\n".join(wrong) or 0)
     unknown = [name for name in wanted if name not in MUTATIONS]
     if unknown:
         sys.exit(f"no mutation {', '.join(unknown)}; there are: {', '.join(MUTATIONS)}")
@@ -53,8 +63,6 @@ def main(source, wanted):
         for name, (path, text, replacement, items) in chosen.items():
             file = root / path
             original = file.read_text()
-            if original.count(text) != 1:
-                sys.exit(f"{name}: '{text}' stands {original.count(text)} times in {path}")
             file.write_text(original.replace(text, replacement))
             build(root)
             noticed = missed(root, items)
