@@ -30,7 +30,7 @@ struct gx_material {
                      double *const *rate_P);
   /* Strain energy per reference volume, Pa. */
   void (*energy)(const struct gx_moduli *moduli, int dim, size_t n, double *const *F, double *W);
-  /* Sum of that over the points; NULL: by the points. */
+  /* Sum of that over the points, of which each has J > 0; NULL: by the points. */
   double (*total)(const struct gx_moduli *moduli, int dim, size_t n, double *const *F);
   /* Longitudinal wave speed at F = I, m/s. */
   double (*wave_speed)(const struct gx_moduli *moduli);

@@ -184,8 +184,7 @@ GX_CLONES static void bring(size_t n, double ahead, bool first_order, const doub
 
 size_t gx_slots_survey_keeps(const struct gx_slots *slots)
 {
-  enum { BEHIND = 8 }; /* entries that may be read behind a nodal field: behind v are those of a, which are fewer on few cells */
-  return 2 * (size_t)slots->nodes + BEHIND;
+  return 2 * (size_t)slots->nodes + GX_MAX_SUPPORT; /* what is read behind v is of a, which has fewer entries on few cells */
 }
 
 void gx_slots_survey(struct gx_slots *slots, const struct gx_slots_nodes *nodes, struct gx_survey *survey)

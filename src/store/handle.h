@@ -11,7 +11,7 @@
 #include <gridcross/value.h>
 
 enum {
-  GX_HDF5_FORMAT = 1,  /* of study.h5 */
+  GX_HDF5_FORMAT = 2,  /* of study.h5 */
   GX_HANDLE_NAME = 256 /* room for a member's name */
 };
 

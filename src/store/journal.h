@@ -31,7 +31,7 @@ struct gx_journal_record {
   uint64_t own;    /* of the four above */
 };
 
-#define GX_JOURNAL_MAGIC        UINT64_C(0x0a314c4e524a5847) /* "GXJRNL1\n" where words begin with their low byte */
+#define GX_JOURNAL_MAGIC        UINT64_C(0x0a324c4e524a5847) /* "GXJRNL2\n" where words begin with their low byte */
 #define GX_JOURNAL_RECORD_MAGIC UINT64_C(0x65736163beefcafe)
 
 /* What follows: this, packed (packing.h), then of the history sample, probe and budget, then of the spectra time and rms, where there are

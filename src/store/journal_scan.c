@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reading journals, of which nothing is believed but what its checksum proves. */
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "../core/checksum.h"
 #include "journal.h"
@@ -21,19 +19,6 @@ struct window {
   unsigned char byte[WINDOW];
 };
 
-static int read_at(int file, uint64_t offset, void *to, size_t length)
-{
-  for (char *at = to; length;) {
-    ssize_t got = pread(file, at, length, (off_t)offset);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return -1;
-    at += got;
-    offset += (uint64_t)got;
-    length -= (size_t)got;
-  }
-  return 0;
-}
-
 static int measure(int file, uint64_t *size)
 {
   struct stat status;
@@ -49,7 +34,7 @@ static const unsigned char *look(struct window *window, uint64_t offset, size_t 
   if (offset < window->start || offset + length > window->start + window->length) {
     window->length = window->size - offset < WINDOW ? (size_t)(window->size - offset) : WINDOW;
     window->start = offset;
-    if (read_at(window->file, offset, window->byte, window->length)) {
+    if (gx_pages_read(NULL, window->file, offset, window->byte, window->length)) {
       window->failed = true;
       window->length = 0;
       return NULL;
@@ -131,12 +116,12 @@ char *gx_journal_scan_identity(int file)
 {
   struct gx_journal_head head;
   uint64_t size;
-  if (measure(file, &size) || read_at(file, 0, &head, sizeof head) || head.magic != GX_JOURNAL_MAGIC ||
+  if (measure(file, &size) || gx_pages_read(NULL, file, 0, &head, sizeof head) || head.magic != GX_JOURNAL_MAGIC ||
       head.length > MOST_IDENTITY)
     return NULL;
   size_t room = (size_t)(head.length + 7) / 8 * 8;
   char *text = calloc(1, room + 1);
-  if (text && !read_at(file, sizeof head, text, room) && strlen(text) == head.length &&
+  if (text && !gx_pages_read(NULL, file, sizeof head, text, room) && strlen(text) == head.length &&
       head.sum == gx_checksum(gx_checksum(GX_CHECKSUM_START, &head.length, sizeof head.length), text, room))
     return text;
   free(text);

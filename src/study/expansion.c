@@ -158,7 +158,7 @@ static uint64_t hash_case(struct expansion *expansion, const struct gx_value *va
       break;
     case GX_REAL:
       if (!*expansion->printed[id].text || expansion->printed[id].real != value[id].real)
-        snprintf(expansion->printed[id].text, sizeof expansion->printed[id].text, "%.17g", value[id].real);
+        snprintf(expansion->printed[id].text, sizeof expansion->printed[id].text, "%.17g", value[id].real + 0.0); /* no -0 */
       expansion->printed[id].real = value[id].real;
       text = expansion->printed[id].text;
       break;
