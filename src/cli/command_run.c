@@ -90,14 +90,14 @@ static void tell_kept(const struct running *run, size_t done, size_t total)
   fprintf(stderr, " done%s kept in %s; the same command with --resume goes on\n", run->ranks ? " is" : " and", run->directory);
 }
 
-/* The cases are not done, by an error that was told or by a signal that all ranks get, of whom one tells. */
+/* The cases are not done, by an error that was told or by a signal that all ranks get, of whom one has told. */
 static int end_early(struct running *run)
 {
   const int signal = atomic_load(&run->interrupt.signal);
   size_t done = 0, total = 0;
   if (run->store) gx_store_count(run->store, &done, &total); /* a rank that waits for the others has closed its own */
   const int failed = gx_store_close(run->store);
-  if (!signal || gx_ranks_first(run->ranks)) tell_kept(run, done, total);
+  if (!signal || !run->ranks) tell_kept(run, done, total);
   run->store = NULL;
   run->broken = true;
   return failed || !signal ? GX_EXIT_FAILED : 128 + signal;
@@ -196,8 +196,9 @@ static int run_cases(struct running *run)
 
 static int run_study(struct running *run)
 {
-  static const char farewell[] = "\ngridcross run: interrupted; what is done is kept: the same command with --resume goes on\n";
-  gx_interrupt_begin(&run->interrupt, gx_ranks_first(run->ranks) ? farewell : "");
+  static const char kept[] = "\ngridcross run: interrupted; what is done is kept: the same command with --resume goes on\n";
+  const char *herald = run->ranks && gx_ranks_first(run->ranks) ? kept : NULL; /* mpirun may leave no time for more */
+  gx_interrupt_begin(&run->interrupt, herald, run->ranks ? NULL : kept);
   int code = open_store(run);
   if (!code) {
     size_t done, total;

@@ -9,10 +9,10 @@
 
 enum { STOP = SIGUSR1 }; /* to the watcher alone: nobody wants it any more */
 
-static void end_at_once(const struct gx_interrupt *interrupt, int signal)
+/* In one piece, by a call that is safe beside any other; what cannot be said is lost. */
+static void say(const char *text)
 {
-  if (write(STDERR_FILENO, interrupt->farewell, strlen(interrupt->farewell)) < 0) _exit(128 + signal);
-  _exit(128 + signal);
+  if (text && write(STDERR_FILENO, text, strlen(text)) < 0) return;
 }
 
 static void *watch(void *argument)
@@ -23,8 +23,10 @@ static void *watch(void *argument)
   if (sigwait(&interrupt->watched, &signal) || signal == STOP) return NULL;
   atomic_store(&interrupt->signal, signal);
   atomic_store(&interrupt->cancel, true);
-  if (sigtimedwait(&interrupt->watched, NULL, &patience) != STOP) end_at_once(interrupt, signal);
-  return NULL;
+  say(interrupt->herald);
+  if (sigtimedwait(&interrupt->watched, NULL, &patience) == STOP) return NULL;
+  say(interrupt->farewell);
+  _exit(128 + signal);
 }
 
 static void add(sigset_t *set, int signal)
@@ -33,9 +35,9 @@ static void add(sigset_t *set, int signal)
   if (!sigaction(signal, NULL, &action) && action.sa_handler != SIG_IGN) sigaddset(set, signal);
 }
 
-void gx_interrupt_begin(struct gx_interrupt *interrupt, const char *farewell)
+void gx_interrupt_begin(struct gx_interrupt *interrupt, const char *herald, const char *farewell)
 {
-  *interrupt = (struct gx_interrupt){.farewell = farewell};
+  *interrupt = (struct gx_interrupt){.herald = herald, .farewell = farewell};
   sigemptyset(&interrupt->watched);
   add(&interrupt->watched, SIGINT);
   add(&interrupt->watched, SIGTERM);

@@ -85,6 +85,16 @@ class Checkpoint(unittest.TestCase):
         self.assertEqual(steps, sorted(set(steps)))
         self.assertTrue(all(step > 0 and step % 32000 == 0 for step in steps[:2]), steps)  # the last was interrupted
 
+    def test_a_killed_shard_goes_on(self):
+        other = ("--set", "mesh.cells=[64, 8]")
+        self.call("run", "study.yaml", "-o", "undivided", "-q", *other)
+        self.call("run", "study.yaml", "-o", "second", "-q", "--shard", "2/2", *other)
+        self.kill_behind("study.yaml", "first", "--shard", "1/2", *other)
+        said = self.call("run", "study.yaml", "-o", "first", "--shard", "1/2", "--resume", *other).stderr
+        self.assertIn("goes on from step", said)
+        self.call("merge", "first", "second", "-o", "merged")
+        self.assertTrue(self.bytes_of("merged") == self.bytes_of("undivided"))
+
     def row_of(self, directory):
         with (self.top / directory / "table.csv").open() as file:
             (row,) = csv.DictReader(file)
