@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Mutation points of a C source: operators and constants of its statements and initialisers, each with what may stand there instead.
 
-Comments, strings, preprocessor lines, types, declarators and assertions at compile time are left alone."""
+Comments, strings, preprocessor lines, types, declarators and assertions at compile time are left alone, and what no test can tell:
+how much memory is asked for, which is enough where it is more and for the sanitizers to notice where it is less, and what is said
+when there is none."""
 import collections
 import re
 
@@ -21,6 +23,8 @@ PAIRS = [("+", "-"), ("*", "/"), ("<", "<="), (">", ">="), ("==", "!="), ("&&", 
 SWAPS = {a: b for pair in PAIRS for a, b in (pair, pair[::-1])}
 COULD_BE_UNARY = set("+-*")
 TYPES = set("void char short int long float double signed unsigned bool const volatile restrict static struct union enum FILE".split())
+QUIET = set("_Static_assert static_assert __attribute__ _Alignas alignas calloc malloc realloc fftw_malloc".split())
+QUIET |= set("gx_aligned_zeros gx_large_zeros gx_arena_take".split())
 STATEMENTS = set("return case sizeof else do goto".split())  # a sign after one of these is unary
 
 
@@ -37,6 +41,24 @@ def opening(tokens, i):
         if depth == 0:
             return k
     return 0
+
+
+def closing(tokens, i):
+    """Where the parenthesis that opens at i closes."""
+    depth = 0
+    for k in range(i, len(tokens)):
+        depth += (tokens[k].text == "(") - (tokens[k].text == ")")
+        if depth == 0:
+            return k
+    return len(tokens)
+
+
+def is_quiet(tokens, i):
+    """Whether nothing is changed within the parenthesis that opens at i."""
+    if tokens[i - 1].text in QUIET:
+        return True
+    told = tokens[i - 1].text in ("gx_status_set", "gx_spline_error_set")
+    return told and any(t.kind == "string" and t.text.startswith('"out of memory') for t in tokens[i:closing(tokens, i)])
 
 
 def is_binary(tokens, i):
@@ -86,7 +108,7 @@ def points(path, source):
             brackets.pop()
         elif text == "(":
             depth += 1
-            if tokens[i - 1].text in ("_Static_assert", "static_assert", "__attribute__", "_Alignas", "alignas") and quiet is None:
+            if quiet is None and is_quiet(tokens, i):
                 quiet = depth
         elif text == ")":
             quiet = None if quiet == depth else quiet
