@@ -130,7 +130,7 @@ GX_CORE void gather(const int dim, const int s, const struct gx_weights *w, cons
         for (int k = 0; k < s; k++) {
           size_t node = row.node + (size_t)k;
           if (take_a) row_a = sum_with(!k, row_a, stencil.S[0][k] * field_a[d][node]);
-          if (take_v || (take_slopes && dim > 1)) row_v = sum_with(!k, row_v, stencil.S[0][k] * field_v[d][node]);
+          if (take_v || take_slopes) row_v = sum_with(!k, row_v, stencil.S[0][k] * field_v[d][node]);
           if (take_slopes) row_g = sum_with(!k, row_g, stencil.D[0][k] * field_v[d][node]);
         }
         sum_a[d] = sum_with(dim == 1, sum_a[d], row.W * row_a);
