@@ -43,12 +43,12 @@ enum gx_primitive {
   GX_KICK,       /* K: velocities by coefficient * dt */
   GX_STRAIN,     /* G: F and stress by coefficient * dt */
   GX_DRIFT,      /* X: positions by coefficient * dt */
-  /* for clocks that use the weights of two positions in one step */
+  /* for clocks that use the weights of two positions in one step; the first three on fixed grids alone */
   GX_WEIGHTS_FROZEN, /* weights at the current positions, particle domains as they were */
   GX_STRETCH,        /* weights again if particle domains follow F */
+  GX_STRAIN_BACK,    /* F and stress by coefficient * dt with the gradient at the end: F <- (I - span grad v)^-1 F */
   GX_MASS,           /* nodal mass; nodal velocity is kept */
   GX_KICK_NODES,     /* nodal velocities only, by coefficient * dt */
-  GX_STRAIN_BACK,    /* F and stress by coefficient * dt with the gradient at the end: F <- (I - span grad v)^-1 F */
   GX_OPEN,           /* keeps y = x + span S v */
   GX_CLOSE           /* x <- y + span S v */
 };

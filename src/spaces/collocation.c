@@ -227,8 +227,6 @@ enum gx_status gx_collocation_twofold(struct gx_space *space, enum gx_primitive 
 {
   struct gx_collocation *c = of(space);
   struct gx_particles *particles = space->particles;
-  if (primitive == GX_WEIGHTS_FROZEN) return gx_collocation_weights(space);
-  if (primitive == GX_STRAIN_BACK) strain(c, span);
   for (int d = 0; d < particles->dim; d++) {
     double *u = particles->u[d], *v = particles->v[d], *opened = c->opened[d];
     if (primitive == GX_KICK_NODES) gx_vector_add(c->n, span, c->a[d], v);

@@ -327,7 +327,6 @@ static enum gx_status twofold(struct gx_space *space, enum gx_primitive primitiv
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
   const bool open = primitive == GX_OPEN;
-  if (primitive == GX_STRAIN_BACK) strain(mesh, span);
   for (int d = 0; d < mesh->grid.dim && primitive == GX_KICK_NODES; d++)
     gx_vector_add(mesh->grid.stored, span, mesh->a[d], mesh->v[d]);
   if (!open && primitive != GX_CLOSE) return GX_OK;

@@ -66,7 +66,6 @@ static enum gx_status twofold(struct gx_space *space, enum gx_primitive primitiv
   struct oscillator *oscillator = (struct oscillator *)space;
   double *x = space->particles->u[0];
   if (primitive == GX_KICK_NODES) space->particles->v[0][0] += span * oscillator->a;
-  if (primitive == GX_STRAIN_BACK) advance(space, 0, span, 0);
   if (primitive == GX_OPEN) oscillator->opened = x[0] + span * drift_velocity(space);
   if (primitive == GX_CLOSE) x[0] = oscillator->opened + span * drift_velocity(space);
   return GX_OK;

@@ -284,12 +284,22 @@ static void stages_make_up_a_step(void **state)
   }
 }
 
+/* What only fixed grids know is in the rows of these alone. */
+static void rows_ask_of_a_space_what_it_knows(void **state)
+{
+  (void)state;
+  for (const struct gx_clock *const *clock = gx_clock_family; *clock; clock++)
+    for (const struct gx_row *row = (*clock)->plain_rows ? (*clock)->plain_rows : (*clock)->rows; row && row->primitive; row++)
+      if (row->primitive == GX_WEIGHTS_FROZEN || row->primitive == GX_STRETCH || row->primitive == GX_STRAIN_BACK)
+        fail_msg("%s needs plain_rows without what is for fixed grids alone", (*clock)->name);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(splittings_have_their_order), cmocka_unit_test(limits_of_stability),
       cmocka_unit_test(orders_on_the_oscillator),    cmocka_unit_test(symplectic_steps_keep_area),
-      cmocka_unit_test(stages_make_up_a_step),
+      cmocka_unit_test(stages_make_up_a_step),       cmocka_unit_test(rows_ask_of_a_space_what_it_knows),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

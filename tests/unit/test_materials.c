@@ -2,6 +2,7 @@
 /* Materials: stress is the derivative of energy, its rate the derivative of stress, in every dimension a problem uses. */
 #include <gridcross/problem.h>
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "check.h"
@@ -327,6 +328,42 @@ static void tangling_is_reported_with_its_particle(void **state)
   each_material(check_tangled);
 }
 
+/* Of n points and no more, whatever pieces it is made of: behind them nothing is a number. scale 1e100: J is one where J^4 is none. */
+static void check_total(const struct gx_material *material, const struct gx_moduli *moduli, int dim, size_t n, double scale)
+{
+  double *F[GX_MAX_TENSOR], *W = malloc((n + 1) * sizeof *W);
+  long double sum = 0, size = 0;
+  uint64_t seed = 19 + n;
+  for (int k = 0; k < dim * dim; k++) {
+    F[k] = malloc((n + 1) * sizeof *F[k]);
+    for (size_t p = 0; p < n; p++) F[k][p] = scale * ((k % (dim + 1) == 0) + check_random(&seed, -0.3, 0.3));
+    F[k][n] = NAN;
+  }
+  material->energy(moduli, dim, n, F, W);
+  for (size_t p = 0; p < n; p++) {
+    sum += W[p];
+    size += fabs(W[p]) + moduli->mu * (scale * scale + 1);
+  }
+  const double total = material->total(moduli, dim, n, F);
+  if (!(fabsl(total - sum) <= 1e-14L * size))
+    fail_msg("%s in %d-D: %zu energies add up to %.17Lg, in pieces to %.17g", material->name, dim, n, sum, total);
+  for (int k = 0; k < dim * dim; k++) free(F[k]);
+  free(W);
+}
+
+static void totals_of(const struct gx_material *material, const struct gx_moduli *moduli, int dim)
+{
+  static const size_t n[] = {0, 1, 3, 4, 7, 255, 1021, 1024, 1026, 2048, 3075, 5003};
+  for (size_t i = 0; material->total && i < sizeof n / sizeof *n; i++)
+    for (int huge = 0; huge < 2; huge++) check_total(material, moduli, dim, n[i], huge ? 1e100 : 1);
+}
+
+static void totals_are_sums_of_energies(void **state)
+{
+  (void)state;
+  each_material(totals_of);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -341,6 +378,7 @@ int main(void)
       cmocka_unit_test(rotations_change_nothing),
       cmocka_unit_test(undeformed_is_free_of_stress),
       cmocka_unit_test(tangling_is_reported_with_its_particle),
+      cmocka_unit_test(totals_are_sums_of_energies),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
