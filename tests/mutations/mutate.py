@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Breaks the kernels one operator or constant at a time and counts how often the unit and conformance suites notice.
+"""Breaks the kernels, or what is around them, one operator or constant at a time and counts how often the unit and conformance
+suites notice.
 
 Works in private copies of the tree, whose tests are linked with the shared library, so that a mutant compiles one file and
 links once. A mutant is killed by the first test that fails, crashes or takes far longer than it should. One that compiles to
@@ -30,8 +31,8 @@ sys.dont_write_bytecode = True  # beside the sources
 from points import points  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-KERNELS = ["src/spaces/*.[ch]", "src/bases/*.[ch]", "src/clocks/*.c", "src/materials/*.c", "src/measures/*.c", "src/problems/*.[ch]", "splines/*.c",
-           *(f"src/core/{name}" for name in ["grid.c", "logarithm.h", "particles.c", "tensor.h", "vector.c", "vector.h"])]
+NUMERICS = ["src/spaces/*.[ch]", "src/bases/*.[ch]", "src/clocks/*.c", "src/materials/*.c", "src/measures/*.c", "src/problems/*.[ch]", "splines/*.c",
+            *(f"src/core/{name}" for name in ["grid.c", "logarithm.h", "particles.c", "tensor.h", "vector.c", "vector.h"])]
 OPTIONS = ["-Dbuildtype=plain", "-Doptimization=1", "-Dclones=disabled", "-Dtests=enabled", "-Dmpi=disabled", "-Dman=disabled"]
 MEMORY, DISK = 4 << 30, 1 << 30  # what one test may take
 NAMES = {**{s.value: s.name for s in signal.Signals}, signal.SIGXCPU: "endless", signal.SIGKILL: "endless"}
@@ -179,11 +180,11 @@ def sampled(found, size, chance):
 def drawn(arguments, chance):
     """Mutants to try, in random order: (point, what stands there instead)."""
     paths = sorted({p.relative_to(ROOT).as_posix() for pattern in arguments.files for p in ROOT.glob(pattern)})
-    found = [p for path in paths for p in points(path, (ROOT / path).read_text())]
+    found = [p for path in paths for p in points(path, (ROOT / path).read_text()) if arguments.at or p.kernel != arguments.around]
     if arguments.at:
         wanted = [tuple(re.fullmatch(r"(.+):(\d+):(\d+)", at).groups()) for at in arguments.at]
         return [(p, other) for p in found if (p.path, str(p.line), str(p.column)) in wanted for other in p.others]
-    print(f"{len(found)} mutation points in {len(paths)} files, {min(arguments.sample, len(found))} drawn with seed {arguments.seed}", flush=True)
+    print(f"{len(found)} mutation points {'around' if arguments.around else 'of'} the kernels in {len(paths)} files, {min(arguments.sample, len(found))} drawn with seed {arguments.seed}", flush=True)
     chosen = [(p, chance.choice(p.others)) for p in sampled(found, arguments.sample, chance)]
     chance.shuffle(chosen)
     return chosen
@@ -230,7 +231,8 @@ def main():
     parser.add_argument("--sample", type=int, default=200, help="mutants to try (200)")
     parser.add_argument("--seed", type=int, default=random.SystemRandom().randrange(10**6), help="of the sample (another each time)")
     parser.add_argument("--jobs", type=int, default=1, help="copies of the tree that work side by side (1)")
-    parser.add_argument("--files", nargs="+", default=KERNELS, metavar="PATTERN", help="sources to break, from the top of the tree (the kernels)")
+    parser.add_argument("--around", action="store_true", help="break what is around the kernels: set-up, choices, measures")
+    parser.add_argument("--files", nargs="+", default=NUMERICS, metavar="PATTERN", help="sources to break, from the top of the tree (the numerics)")
     parser.add_argument("--at", nargs="+", metavar="FILE:LINE:COLUMN", help="break these points, in every way, instead of a sample")
     parser.add_argument("--longest", type=float, default=600, metavar="SECONDS",
                         help="leave out tests that take more processor time than this: the share is then a lower bound (600)")

@@ -7,7 +7,8 @@ when there is none."""
 import collections
 import re
 
-Point = collections.namedtuple("Point", "path line column at text others")  # at: offset of text in the source
+# at: offset of text in the source; kernel: whether it is in one
+Point = collections.namedtuple("Point", "path line column at text others kernel")
 Token = collections.namedtuple("Token", "kind text at")
 
 TOKEN = re.compile(r"""
@@ -23,6 +24,8 @@ PAIRS = [("+", "-"), ("*", "/"), ("<", "<="), (">", ">="), ("==", "!="), ("&&", 
 SWAPS = {a: b for pair in PAIRS for a, b in (pair, pair[::-1])}
 COULD_BE_UNARY = set("+-*")
 TYPES = set("void char short int long float double signed unsigned bool const volatile restrict static struct union enum FILE".split())
+KERNELS = set("GX_CORE GX_CLONES GX_SPLINE_CORE GX_SPLINE_CLONES inline".split())
+METHODS = ("src/bases/", "src/clocks/", "src/materials/")
 QUIET = set("_Static_assert static_assert __attribute__ _Alignas alignas calloc malloc realloc fftw_malloc".split())
 QUIET |= set("gx_aligned_zeros gx_large_zeros gx_arena_take".split())
 STATEMENTS = set("return case sizeof else do goto".split())  # a sign after one of these is unary
@@ -61,6 +64,13 @@ def is_quiet(tokens, i):
     return told and any(t.kind == "string" and t.text.startswith('"out of memory') for t in tokens[i:closing(tokens, i)])
 
 
+def is_kernel(path, head):
+    """Kernels are functions that are compiled into loops over points or for several instruction sets, tables of coefficients, and
+    all of bases, clocks and materials. head: what stands before a brace at the top."""
+    names = [t.text for t in head]
+    return path.startswith(METHODS) or not KERNELS.isdisjoint(names) or "(" not in names or "=" in names
+
+
 def is_binary(tokens, i):
     """Whether the +, - or * at i stands between two operands."""
     before, after = tokens[i - 1], tokens[i + 1]
@@ -94,9 +104,11 @@ def points(path, source):
     tokens = [Token(m.lastgroup, m.group(), m.start()) for m in TOKEN.finditer(source) if m.lastgroup != "skip"]
     found, braces, brackets = [], [], []
     first, value, quiet = 0, False, None  # first token of the statement; an = was seen in it; parenthesis depth at which silence ends
-    depth = 0
+    depth, head, kernel = 0, 0, False  # head: first token of what stands at the top
     for i, token in enumerate(tokens):
         text = token.text
+        if not braces and text in (";", "{"):
+            kernel = is_kernel(path, tokens[head:i])
         if text == "{":
             begins = [t.text for t in tokens[max(0, i - 2):i]]
             braces.append(bool({"struct", "union", "enum"} & set(begins)))
@@ -125,7 +137,9 @@ def points(path, source):
             if others:
                 line = source.count("\n", 0, token.at) + 1
                 column = token.at - (source.rfind("\n", 0, token.at) + 1) + 1
-                found.append(Point(path, line, column, token.at, text, others))
+                found.append(Point(path, line, column, token.at, text, others, kernel))
+        if not braces and text in (";", "}"):
+            head = i + 1
         if text in (";", "{", "}") and depth == 0:
             first = i + 1 if i + 1 < len(tokens) else i
             value = value and text != ";" and bool(braces)
