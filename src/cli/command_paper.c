@@ -99,6 +99,19 @@ static char *place(const struct session *session, size_t index, const char *endi
   return path;
 }
 
+/* What is wrong with a place of a study is said before the first case runs. */
+static int prepare_all(const struct session *session)
+{
+  int code = GX_EXIT_DONE;
+  for (size_t i = 0; gx_options_value(session->options, "output") && i < session->count && !code; i++) {
+    char *directory = place(session, i, ".study");
+    if (!directory) return gx_command_no_memory();
+    if (gx_store_prepare(directory, stderr)) code = GX_EXIT_FAILED;
+    free(directory);
+  }
+  return code;
+}
+
 /* The printed values of what the figure shows. Returns how many, or -1 when memory runs out. */
 static long find_points(const struct gx_paper_item *item, const struct gx_options *options, const struct gx_table *table,
                         struct gx_plot_point **point)
@@ -152,8 +165,7 @@ static int keep(const struct session *session, size_t index, const struct gx_stu
   char *directory = place(session, index, ".study"), *line = gx_options_line(session->options);
   int code = directory && line ? GX_EXIT_DONE : gx_command_no_memory();
   const struct gx_store_run about = {.command = line};
-  if (!code && (gx_store_prepare(directory, stderr) || gx_store_write(directory, study, results, &about, stderr)))
-    code = GX_EXIT_FAILED;
+  if (!code && gx_store_write(directory, study, results, &about, stderr)) code = GX_EXIT_FAILED;
   if (!code) code = draw_all(session, index, directory, table);
   free(directory);
   free(line);
@@ -369,7 +381,9 @@ static int run(const struct gx_options *options)
   if (code) return code;
   if (gx_options_value(options, "list")) return list_items(&session);
   session.jobs = gx_command_jobs(options);
-  return session.jobs ? run_items(&session) : GX_EXIT_USAGE;
+  if (!session.jobs) return GX_EXIT_USAGE;
+  code = prepare_all(&session);
+  return code ? code : run_items(&session);
 }
 
 static const struct gx_example example[] = {

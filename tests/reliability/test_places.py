@@ -71,6 +71,16 @@ class Places(unittest.TestCase):
         for args, _ in COMMANDS[:3]:
             self.assertIn("blocked/study.h5", self.call(*args, "-o", "blocked", codes=(1, 2)))
 
+    def test_paper_looks_at_its_places_first(self):
+        place = self.dir / "ours" / "berzins2022-table2.study"
+        place.mkdir(parents=True)
+        (place / "mine.txt").write_text("mine")
+        done = subprocess.run([PROGRAM, "paper", "berzins2021/table1", "berzins2022/table2", "-o", "ours"], cwd=self.dir, capture_output=True,
+                              text=True, timeout=300)
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertIn("is neither a study nor empty", done.stderr)
+        self.assertEqual(self.content(self.dir / "ours"), {str(place / "mine.txt"): b"mine"})
+
     def test_a_directory_that_vanishes(self):
         for what in ("checkpoint: 1000", "snapshots: 1000", "checkpoint: 1000, snapshots: 1000"):
             with self.subTest(what=what):
