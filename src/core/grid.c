@@ -1,30 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Periodic images and fixed ends of nodal fields, direction by direction. */
+/* Periodic images and fixed ends of nodal fields, direction by direction: along one, a field is blocks of consecutive entries, in each
+ * first those of the functions, then those of their images. */
 #include <gridcross/grid.h>
 
-/* Layer k of direction d is every entry whose index along d is k: `outer` runs of `inner` consecutive entries. */
-static size_t outer_of(const struct gx_grid *grid, int d)
+/* Entries of all functions of direction d, and of a block: that many with the images. */
+static size_t period_of(const struct gx_grid *grid, int d)
 {
-  return grid->stored / (grid->stride[d] * (size_t)grid->axis[d].stored);
+  return grid->stride[d] * (size_t)grid->axis[d].functions;
 }
 
-static double *layer(const struct gx_grid *grid, int d, double *field, size_t outer, int k)
+static size_t block_of(const struct gx_grid *grid, int d)
 {
-  return field + (outer * (size_t)grid->axis[d].stored + (size_t)k) * grid->stride[d];
+  return grid->stride[d] * (size_t)grid->axis[d].stored;
 }
 
 void gx_grid_fold(const struct gx_grid *grid, double *field)
 {
   for (int d = 0; d < grid->dim; d++) {
-    const struct gx_axis *axis = &grid->axis[d];
-    size_t inner = grid->stride[d], outer = outer_of(grid, d);
-    for (size_t o = 0; o < outer; o++)
-      for (int k = axis->stored - 1; k >= axis->functions; k--) {
-        double *image = layer(grid, d, field, o, k), *original = layer(grid, d, field, o, k - axis->functions);
-        for (size_t i = 0; i < inner; i++) {
-          original[i] += image[i];
-          image[i] = 0;
-        }
+    const size_t period = period_of(grid, d), length = block_of(grid, d);
+    for (double *block = field; block < field + grid->stored; block += length)
+      for (size_t i = length; i-- > period;) { /* an image of an image first */
+        block[i - period] += block[i];
+        block[i] = 0;
       }
   }
 }
@@ -32,14 +29,9 @@ void gx_grid_fold(const struct gx_grid *grid, double *field)
 void gx_grid_spread(const struct gx_grid *grid, double *field)
 {
   for (int d = 0; d < grid->dim; d++) {
-    const struct gx_axis *axis = &grid->axis[d];
-    size_t inner = grid->stride[d], outer = outer_of(grid, d);
-    for (size_t o = 0; o < outer; o++)
-      for (int k = axis->functions; k < axis->stored; k++) {
-        double *image = layer(grid, d, field, o, k);
-        const double *original = layer(grid, d, field, o, k - axis->functions);
-        for (size_t i = 0; i < inner; i++) image[i] = original[i];
-      }
+    const size_t period = period_of(grid, d), length = block_of(grid, d);
+    for (double *block = field; block < field + grid->stored; block += length)
+      for (size_t i = period; i < length; i++) block[i] = block[i - period];
   }
 }
 
@@ -47,12 +39,11 @@ void gx_grid_fix(const struct gx_grid *grid, int d, double *field)
 {
   for (int e = 0; e < grid->dim; e++) {
     const struct gx_axis *axis = &grid->axis[e];
-    size_t inner = grid->stride[e], outer = outer_of(grid, e);
-    for (int end = 0; end < 2 && !axis->periodic; end++)
-      for (size_t o = 0; axis->held[end] >> d & 1 && o < outer; o++)
-        for (int k = 0; k < axis->edge; k++) {
-          double *run = layer(grid, e, field, o, end ? axis->functions - 1 - k : k);
-          for (size_t i = 0; i < inner; i++) run[i] = 0;
-        }
+    const size_t length = block_of(grid, e), edge = grid->stride[e] * (size_t)axis->edge;
+    for (int end = 0; end < 2 && !axis->periodic; end++) {
+      double *first = field + (end ? period_of(grid, e) - edge : 0);
+      for (double *block = first; axis->held[end] >> d & 1 && block < field + grid->stored; block += length)
+        for (size_t i = 0; i < edge; i++) block[i] = 0;
+    }
   }
 }

@@ -264,10 +264,11 @@ static void follow_block(void *context, struct gx_block *block)
 }
 
 /* Stretches of the nodes are kicked, then moved, while in cache. */
+enum { STRETCH = 1024 };
+
 struct stepping {
   struct gx_mesh *mesh;
   double kick, drift; /* s */
-  size_t stretches;
 };
 
 GX_CLONES static void kick_and_move(size_t n, double kick, double drift, const double *restrict a, double *restrict v,
@@ -283,8 +284,7 @@ static void step_stretch(void *context, size_t part, size_t worker)
 {
   const struct stepping *stepping = context;
   const struct gx_mesh *mesh = stepping->mesh;
-  const size_t stored = mesh->grid.stored, from = gx_team_bound(stored, stepping->stretches, part);
-  const size_t n = gx_team_bound(stored, stepping->stretches, part + 1) - from;
+  const size_t stored = mesh->grid.stored, from = part * STRETCH, n = stored - from < STRETCH ? stored - from : STRETCH;
   (void)worker;
   for (int d = 0; d < mesh->grid.dim; d++) {
     if (stepping->kick != 0 && stepping->drift != 0)
@@ -298,9 +298,8 @@ static void step_stretch(void *context, size_t part, size_t worker)
 
 static void step_nodes(struct gx_mesh *mesh, double kick, double drift)
 {
-  const size_t length = 1024;
-  struct stepping stepping = {mesh, kick, drift, (mesh->grid.stored + length - 1) / length};
-  gx_team_run(mesh->options.team, stepping.stretches, step_stretch, &stepping);
+  struct stepping stepping = {mesh, kick, drift};
+  gx_team_run(mesh->options.team, (mesh->grid.stored + STRETCH - 1) / STRETCH, step_stretch, &stepping);
 }
 
 static void advance(struct gx_space *space, double kick, double span, double drift)
