@@ -54,7 +54,7 @@ static void open_cell(int degree, int cells, int cell, double s, double *S, doub
 {
   S[0] = 1;
   for (int q = 1; q <= degree; q++) {
-    double previous[GX_MAX_SUPPORT + 1];
+    double previous[GX_MAX_SUPPORT];
     previous[0] = 0;
     for (int j = 0; j < q; j++) previous[j + 1] = S[j];
     /* functions of degree q non-zero here start at knots cell + degree - q + j, j = 0..q */
