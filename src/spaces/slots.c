@@ -190,23 +190,20 @@ void gx_slots_free(struct gx_slots *slots)
   free(slots);
 }
 
-/* value = start + sum_k w_k field_k in the cells of `group` slots at once, which share what is read of the field. */
-GX_CORE void gather_alike(const int support, const int group, double start, size_t n, const double *restrict weight,
-                          const double *restrict field, double *restrict value)
+/* value = start + sum_k w_k field_k of the cells of a slot. */
+GX_CORE void gather_alike(const int support, double start, size_t n, const double *restrict weight, const double *restrict field,
+                          double *restrict value)
 {
-  double w[GX_SLOTS_GROUP][GX_SLOTS_FEW];
-  for (int g = 0; g < group; g++)
-    for (int k = 0; k < support; k++) w[g][k] = weight[g * support + k];
-  GX_APART
-  for (size_t i = 0; i < n; i++)
-    for (int g = 0; g < group; g++) {
-      double sum = start;
-      for (int k = 0; k < support; k++) sum += w[g][k] * field[i + (size_t)k];
-      value[(size_t)g * n + i] = sum;
-    }
+  double w[GX_MAX_SUPPORT];
+  for (int k = 0; k < support; k++) w[k] = weight[k];
+  for (size_t i = 0; i < n; i++) {
+    double sum = start;
+    for (int k = 0; k < support; k++) sum += w[k] * field[i + (size_t)k];
+    value[i] = sum;
+  }
 }
 
-/* The same of one slot and any support, with one weight for all cells or one for each. */
+/* The same of any support, with one weight for all cells or one for each. */
 GX_CORE void gather_any(const int support, const bool uniform, double start, size_t n, const double *restrict w,
                         const double *restrict field, double *restrict value)
 {
@@ -215,34 +212,25 @@ GX_CORE void gather_any(const int support, const bool uniform, double start, siz
     for (size_t i = 0; i < n; i++) value[i] += (uniform ? w[k] : w[k * n + i]) * field[i + k];
 }
 
-GX_CORE void gather_group(const int group, const struct gx_slots *slots, double start, size_t n, const double *w,
-                          const double *field, double *value)
-{
-  if (slots->uniform && slots->support == 2)
-    gather_alike(2, group, start, n, w, field, value);
-  else if (slots->uniform && slots->support == 3)
-    gather_alike(3, group, start, n, w, field, value);
-  else if (slots->uniform && slots->support == 4)
-    gather_alike(4, group, start, n, w, field, value);
-  else
-    gather_any(slots->support, slots->uniform, start, n, w, field, value);
-}
-
 GX_CLONES void gx_slots_values(const struct gx_slots *slots, const struct gx_slots_stretch *stretch, const double *weights,
                                double start, const double *field, double *values)
 {
-  const size_t n = stretch->pitch, cells = (size_t)stretch->cells;
-  for (int slot = 0, group; slot < slots->slots; slot += group) {
+  const size_t n = stretch->pitch;
+  for (int slot = 0; slot < slots->slots; slot++) {
     const double *w = weights + gx_slots_weights_at(slots, stretch, slot);
     double *value = values + (size_t)slot * n;
-    group = gx_slots_group(slots, slot);
-    if (group == GX_SLOTS_GROUP)
-      gather_group(GX_SLOTS_GROUP, slots, start, n, w, field, value);
+    if (!slots->uniform)
+      gather_any(slots->support, false, start, n, w, field, value);
+    else if (slots->support == 2)
+      gather_alike(2, start, n, w, field, value);
+    else if (slots->support == 3)
+      gather_alike(3, start, n, w, field, value);
+    else if (slots->support == 4)
+      gather_alike(4, start, n, w, field, value);
     else
-      gather_group(1, slots, start, n, w, field, value);
+      gather_any(slots->support, true, start, n, w, field, value);
+    for (size_t i = (size_t)stretch->cells; i < n; i++) value[i] = start;
   }
-  for (int slot = 0; slot < slots->slots; slot++)
-    for (size_t i = cells; i < n; i++) values[(size_t)slot * n + i] = start;
 }
 
 /* From slots to particles. */

@@ -54,13 +54,6 @@ static inline size_t gx_slots_weights_at(const struct gx_slots *slots, const str
   return slots->uniform ? row : stretch->at * (size_t)slots->support + row * stretch->pitch;
 }
 
-/* Slots that a kernel takes at once, from one on: GROUP, or the last ones, and any of unequal or many weights, one by one. */
-static inline int gx_slots_group(const struct gx_slots *slots, int slot)
-{
-  const bool few = slots->uniform && slots->support >= 2 && slots->support <= GX_SLOTS_FEW;
-  return few && slots->slots - slot >= GX_SLOTS_GROUP ? GX_SLOTS_GROUP : 1;
-}
-
 /* The problem at the particles of a stretch. */
 static inline const struct gx_posed *gx_slots_posed(const struct gx_slots *slots, const struct gx_slots_stretch *stretch)
 {

@@ -56,35 +56,48 @@ GX_CORE void share_any(const int support, const bool uniform, const int what, co
   }
 }
 
-GX_CORE void share_group(const bool uniform, const int group, const int what, const bool add, int support,
-                         const struct loads *loads, double *shares)
+GX_CORE void share_slot(const bool uniform, const int what, const bool add, int support, const struct loads *loads,
+                        double *shares)
 {
   if (uniform && support == 2)
-    share_alike(2, group, what, add, loads, shares);
+    share_alike(2, 1, what, add, loads, shares);
   else if (uniform && support == 3)
-    share_alike(3, group, what, add, loads, shares);
+    share_alike(3, 1, what, add, loads, shares);
   else if (uniform && support == 4)
-    share_alike(4, group, what, add, loads, shares);
+    share_alike(4, 1, what, add, loads, shares);
   else
     share_any(support, uniform, what, add, loads, shares);
+}
+
+GX_CORE void share_four(const int what, const bool add, int support, const struct loads *loads, double *shares)
+{
+  if (support == 2)
+    share_alike(2, 4, what, add, loads, shares);
+  else if (support == 3)
+    share_alike(3, 4, what, add, loads, shares);
+  else
+    share_alike(4, 4, what, add, loads, shares);
 }
 
 /* Shares of every cell of a stretch, and zeros behind. */
 GX_CORE void share(const bool uniform, const int what, const struct gx_slots *slots, const struct gx_slots_stretch *stretch)
 {
   double *shares = slots->shares + GX_SLOTS_MARGIN;
-  for (int slot = 0, group; slot < slots->slots; slot += group) {
+  const bool fours = uniform && slots->support >= 2 && slots->support <= GX_SLOTS_FEW;
+  int slot = 0;
+  while (slot < slots->slots) {
     const size_t from = (size_t)slot * stretch->pitch, weights = gx_slots_weights_at(slots, stretch, slot);
     const struct loads loads = {stretch->pitch, slots->P + from, slots->b + from, slots->V0_D + weights, slots->m_S + weights};
-    group = gx_slots_group(slots, slot);
-    if (group == GX_SLOTS_GROUP && slot > 0)
-      share_group(uniform, GX_SLOTS_GROUP, what, true, slots->support, &loads, shares);
-    else if (group == GX_SLOTS_GROUP)
-      share_group(uniform, GX_SLOTS_GROUP, what, false, slots->support, &loads, shares);
+    const bool four = fours && slot + 4 <= slots->slots;
+    if (four && slot > 0)
+      share_four(what, true, slots->support, &loads, shares);
+    else if (four)
+      share_four(what, false, slots->support, &loads, shares);
     else if (slot > 0)
-      share_group(uniform, 1, what, true, slots->support, &loads, shares);
+      share_slot(uniform, what, true, slots->support, &loads, shares);
     else
-      share_group(uniform, 1, what, false, slots->support, &loads, shares);
+      share_slot(uniform, what, false, slots->support, &loads, shares);
+    slot += four ? 4 : 1;
   }
   const bool dirty = stretch->from > 0 || (size_t)stretch->cells < stretch->pitch;
   for (int k = 0; dirty && k < slots->support; k++)
@@ -152,8 +165,8 @@ bool gx_slots_force(struct gx_slots *slots, const double *u, double t, double *f
   clear_beside(slots, force);
   for (int from = 0; from < slots->cells; from += GX_SLOTS_STRETCH) {
     const struct gx_slots_stretch stretch = gx_slots_stretch_from(slots, from);
-    if (problem->body) find_body(slots, &stretch, t); /* needs nothing of what the step before has just stored */
     sound = gx_slots_stress(slots, &stretch, u) && sound;
+    if (problem->body) find_body(slots, &stretch, t);
     share_out(slots, &stretch, problem->body ? BOTH : STRESS);
     add_up(slots, &stretch, force + slots->base + from);
   }
