@@ -43,8 +43,9 @@ static void each_material(void (*check)(const struct gx_material *material, cons
     const struct gx_material *material = gx_material_family[i];
     int most = largest_dimension(material);
     for (int dim = 1; dim <= most; dim++)
-      for (int with_bulk = 0; with_bulk < 2; with_bulk++) {
+      for (int with_bulk = 0; with_bulk < 3; with_bulk++) {
         struct gx_moduli moduli = gx_material_moduli(7, with_bulk ? 0.3 : 0, 1.5);
+        if (with_bulk == 2) moduli.lambda = 1; /* a number that may stand in the source, too */
         check(material, &moduli, dim);
       }
   }
