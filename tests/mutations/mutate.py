@@ -4,8 +4,9 @@
 suites notice.
 
 Works in private copies of the tree, whose tests are linked with the shared library, so that a mutant compiles one file and
-links once. A mutant is killed by the first test that fails, crashes or takes far longer than it should. One that compiles to
-the same machine code, or not at all, does not count. The share is given with its 95 % interval of confidence (Wilson)."""
+links once. A mutant is killed by the first test that fails, crashes or takes far longer than it should; what survives the
+plain suites is tried with them under address and undefined-behaviour sanitizers, as tests/run does. One that compiles to the
+same machine code, or not at all, does not count. The share is given with its 95 % interval of confidence (Wilson)."""
 import argparse
 import collections
 import contextlib
@@ -34,7 +35,9 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 NUMERICS = ["src/spaces/*.[ch]", "src/bases/*.[ch]", "src/clocks/*.c", "src/materials/*.c", "src/measures/*.c", "src/problems/*.[ch]", "splines/*.c",
             *(f"src/core/{name}" for name in ["grid.c", "logarithm.h", "particles.c", "tensor.h", "vector.c", "vector.h"])]
 OPTIONS = ["-Dbuildtype=plain", "-Doptimization=1", "-Dclones=disabled", "-Dtests=enabled", "-Dmpi=disabled", "-Dman=disabled"]
-MEMORY, DISK = 4 << 30, 1 << 30  # what one test may take
+SANITIZERS = ["-Db_sanitize=address,undefined"]
+HALT = {"ASAN_OPTIONS": "halt_on_error=1:detect_leaks=0", "UBSAN_OPTIONS": "halt_on_error=1"}
+MEMORY, DISK = 4 << 30, 1 << 30  # what one test may take; sanitizers set aside far more than they use
 NAMES = {**{s.value: s.name for s in signal.Signals}, signal.SIGXCPU: "endless", signal.SIGKILL: "endless"}
 Test = collections.namedtuple("Test", "name command")
 
@@ -46,8 +49,8 @@ class Stopped(Exception):
 class Tree:
     """A private copy of the tree with its build, and the tests in it, of which each is timed once."""
 
-    def __init__(self, place, longest, stop):
-        self.root, self.build, self.stop = place / "gridcross", place / "gridcross/build", stop
+    def __init__(self, place, sanitizers, longest, stop):
+        self.root, self.build, self.sanitizers, self.stop = place / "gridcross", place / "gridcross/build", sanitizers, stop
         self.scratch = place / "scratch"  # temporary files of a test
         shutil.copytree(ROOT, self.root, ignore=lambda folder, names: [n for n in names if n == ".git" or n.endswith(".study")
                                                                        or (pathlib.Path(folder) / n / "build.ninja").exists()])
@@ -55,7 +58,7 @@ class Tree:
         text = links.read_text()
         assert text.count("link_with: library.get_static_lib()") == 1
         links.write_text(text.replace("get_static_lib", "get_shared_lib"))
-        self.do("meson", "setup", self.build, self.root, *OPTIONS)
+        self.do("meson", "setup", self.build, self.root, *OPTIONS, *sanitizers)
         targets = {t["id"]: t["filename"][0] for t in json.loads(self.do("meson", "introspect", self.build, "--targets"))}
         listed = [t for t in json.loads(self.do("meson", "introspect", self.build, "--tests"))
                   if {s.split(":")[-1] for s in t["suite"]} & {"unit", "conformance"} and t["cmd"][0] in targets.values()]
@@ -89,9 +92,11 @@ class Tree:
     def run(self, test, most):
         """What fails, or None, and the seconds of processor time it took, of which `most` are allowed."""
         self.scratch.mkdir()
-        limits = {resource.RLIMIT_CPU: math.ceil(most) + 1, resource.RLIMIT_AS: MEMORY, resource.RLIMIT_FSIZE: DISK, resource.RLIMIT_CORE: 0}
+        limits = {resource.RLIMIT_CPU: math.ceil(most) + 1, resource.RLIMIT_FSIZE: DISK, resource.RLIMIT_CORE: 0}
+        if not self.sanitizers:
+            limits[resource.RLIMIT_AS] = MEMORY
         try:
-            return self.begin(test.command, 30 * most + 60, limits, TMPDIR=str(self.scratch))
+            return self.begin(test.command, 30 * most + 60, limits, TMPDIR=str(self.scratch), **HALT)
         finally:
             shutil.rmtree(self.scratch, ignore_errors=True)
 
@@ -151,7 +156,7 @@ class Tree:
                 if failed:
                     self.kills[point.path][test.name] += 1
                     self.kills[os.path.dirname(point.path)][test.name] += 1
-                    return "killed", f"{test.name}: {failed}"
+                    return "killed", f"{test.name}{' (sanitized)' if self.sanitizers else ''}: {failed}"
             return "survived", ""
         finally:
             file.write_text(source)
@@ -210,10 +215,13 @@ def report(results, least):
 
 def work(place, longest, left, results, told, stop):
     try:
-        tree = Tree(place, longest, stop)
+        tree, strict = Tree(place / "plain", [], longest, stop), None
         while not stop.is_set():
             mutant = left.get_nowait()
             (point, other), result = mutant, tree.try_mutant(*mutant)
+            if result[0] == "survived":
+                strict = strict or Tree(place / "strict", SANITIZERS, longest, stop)
+                result = strict.try_mutant(*mutant)
             with told:
                 results.append((mutant, result))
                 print(f"{result[0]:12} {point.path}:{point.line}:{point.column}: {point.text} -> {other}  {result[1]}", flush=True)
