@@ -320,6 +320,24 @@ static void a_spinning_block_starts_as_it_says(void **state)
   }
 }
 
+/* Of radius 0.2 about (0.2, 0.2) and (0.8, 0.8), flying at each other. */
+static void disks_are_where_they_should_be(void **state)
+{
+  (void)state;
+  static const struct {
+    double X[2];
+    int disk; /* 0: none */
+  } points[] = {{{0.2, 0.2}, 1}, {{0.01, 0.2}, 1}, {{0.2, 0.39}, 1}, {{0.34, 0.34}, 1}, {{0.35, 0.35}, 0}, {{0.5, 0.5}, 0},
+                {{0.8, 0.8}, 2}, {{0.8, 0.61}, 2}, {{0.99, 0.8}, 2}, {{0.66, 0.66}, 2}, {{0.65, 0.65}, 0}, {{0.2, 0.8}, 0}};
+  const struct gx_problem *problem = gx_problem_find("colliding-disks");
+  const struct gx_problem_options options = {.dim = 2};
+  for (size_t i = 0; i < sizeof points / sizeof *points; i++) {
+    const double *X = points[i].X;
+    const int disk = problem->inside(&options, X) ? 1 + problem->second(&options, X) : 0;
+    if (disk != points[i].disk) fail_msg("(%g, %g) is of disk %d, not %d", X[0], X[1], disk, points[i].disk);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -332,6 +350,7 @@ int main(void)
       cmocka_unit_test(a_knot_is_met_half_way),
       cmocka_unit_test(the_external_acceleration_is_a_quadrature_error),
       cmocka_unit_test(a_spinning_block_starts_as_it_says),
+      cmocka_unit_test(disks_are_where_they_should_be),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
