@@ -270,6 +270,20 @@ static enum gx_status factor_mass(struct gx_mesh *mesh)
                         mesh->space.outcome);
 }
 
+/* A density that is fitted to few or uneven particles can fall below zero, and a node's mass with it, by more than round-off. */
+static enum gx_status check_fitted_mass(const struct gx_mesh *mesh)
+{
+  const double least = -1e-12 * gx_vector_max(mesh->grid.stored, mesh->mass);
+  for (size_t i = 0; i < mesh->grid.stored; i++)
+    if (mesh->mass[i] < least)
+      return gx_status_set(
+          mesh->space.outcome, GX_SINGULAR, -1,
+          "the density that is fitted to the particles gives a node the mass %.3g kg: take more particles a cell, or "
+          "quadrature particles",
+          mesh->mass[i]);
+  return GX_OK;
+}
+
 enum gx_status gx_mesh_assemble(struct gx_mesh *mesh, double *const *value, double *const *field)
 {
   struct scattering scattering = {.mesh = mesh, .value = value};
@@ -279,6 +293,7 @@ enum gx_status gx_mesh_assemble(struct gx_mesh *mesh, double *const *value, doub
   scatter(&scattering);
   gx_exchange_deliver(&mesh->exchange);
   gx_grid_fold(&mesh->grid, mesh->mass);
+  if (mesh->reconstruction) GX_TRY(check_fitted_mass(mesh));
   if (mesh->consistent) GX_TRY(factor_mass(mesh));
   if (!value) return GX_OK;
   add_affine(mesh, value, field);

@@ -201,6 +201,25 @@ static void what_it_cannot_do_is_refused_with_the_reason(void **state)
                    GX_TANGLED);
 }
 
+/* A density that falls off within a cell is fitted by values below zero, which is no mass of a node. */
+static void negative_mass_is_not_taken_for_none(void **state)
+{
+  (void)state;
+  for (int heavy = 0; heavy < 2; heavy++) {
+    struct gx_case one = case_of("problem.name=axis-aligned", "problem.dimension=2", "mesh.cells=4", "mesh.particles_per_cell=2",
+                                 "method.quadrature=reconstructed", "time.steps=1");
+    struct gx_simulation simulation = {0};
+    struct gx_outcome outcome = {.particle = -1};
+    assert_int_equal(gx_simulation_plan(&simulation, &one, &outcome), GX_OK);
+    assert_int_equal(gx_simulation_lay_out(&simulation, &outcome), GX_OK);
+    assert_int_equal(gx_simulation_pose(&simulation, &outcome), GX_OK);
+    if (heavy) simulation.particles->m[0] *= 1e3;
+    assert_int_equal(gx_simulation_open(&simulation, &outcome), heavy ? GX_SINGULAR : GX_OK);
+    assert_int_equal(heavy, strstr(outcome.reason, "gives a node the mass -") != NULL);
+    gx_simulation_free(&simulation);
+  }
+}
+
 int main(void)
 {
   gsl_set_error_handler_off();
@@ -211,6 +230,7 @@ int main(void)
       cmocka_unit_test(polynomials_are_reproduced),
       cmocka_unit_test(bodies_leave_their_edge_to_the_particles),
       cmocka_unit_test(what_it_cannot_do_is_refused_with_the_reason),
+      cmocka_unit_test(negative_mass_is_not_taken_for_none),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
