@@ -278,8 +278,8 @@ static enum gx_status check_fitted_mass(const struct gx_mesh *mesh)
     if (mesh->mass[i] < least)
       return gx_status_set(
           mesh->space.outcome, GX_SINGULAR, -1,
-          "the density that is fitted to the particles gives a node the mass %.3g kg: take more particles a cell, or "
-          "quadrature particles",
+          "the density that is fitted to the particles gives a node the mass %.3g kg: use more particles in a cell, "
+          "or quadrature particles",
           mesh->mass[i]);
   return GX_OK;
 }
@@ -293,8 +293,10 @@ enum gx_status gx_mesh_assemble(struct gx_mesh *mesh, double *const *value, doub
   scatter(&scattering);
   gx_exchange_deliver(&mesh->exchange);
   gx_grid_fold(&mesh->grid, mesh->mass);
-  if (mesh->reconstruction) GX_TRY(check_fitted_mass(mesh));
-  if (mesh->consistent) GX_TRY(factor_mass(mesh));
+  if (mesh->consistent)
+    GX_TRY(factor_mass(mesh));
+  else if (mesh->reconstruction)
+    GX_TRY(check_fitted_mass(mesh));
   if (!value) return GX_OK;
   add_affine(mesh, value, field);
   return gx_mesh_solve(mesh, field);

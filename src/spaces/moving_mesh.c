@@ -263,7 +263,7 @@ static void follow_block(void *context, struct gx_block *block)
                   particles->u[d] + from);
 }
 
-/* Stretches of the nodes are kicked, then moved, while in cache. */
+/* Stretches of the nodes, of so many, are kicked, then moved, while in cache. */
 enum { STRETCH = 1024 };
 
 struct stepping {

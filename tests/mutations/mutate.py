@@ -189,7 +189,8 @@ def drawn(arguments, chance):
     if arguments.at:
         wanted = [tuple(re.fullmatch(r"(.+):(\d+):(\d+)", at).groups()) for at in arguments.at]
         return [(p, other) for p in found if (p.path, str(p.line), str(p.column)) in wanted for other in p.others]
-    print(f"{len(found)} mutation points {'around' if arguments.around else 'of'} the kernels in {len(paths)} files, {min(arguments.sample, len(found))} drawn with seed {arguments.seed}", flush=True)
+    where = f"{'around' if arguments.around else 'of'} the kernels in {len(paths)} files"
+    print(f"{len(found)} mutation points {where}, {min(arguments.sample, len(found))} drawn with seed {arguments.seed}", flush=True)
     chosen = [(p, chance.choice(p.others)) for p in sampled(found, arguments.sample, chance)]
     chance.shuffle(chosen)
     return chosen
