@@ -51,6 +51,7 @@ struct trial_view {
   int shift[GX_MAX_DIM]; /* whole cells */
   bool shuffled;
   double disturbance;                 /* of everything that particles carry, relative to its size */
+  int draw;                           /* which of the random ones */
   const char *transfer;               /* another one; NULL: that of the case */
   double flip;                        /* with it */
   double body;                        /* edge of a cube in the middle of the box that particles fill; 0: all of it */
@@ -86,8 +87,8 @@ double trial_distance(const struct trial *a, const struct trial *b);
 /* Roundings in sequence behind a particle after a step, at most: sums over particles or points, of weights. */
 double trial_roundings(const struct trial *trial);
 /* What the roundings of a run grow to by its end, and the tolerance of solves with the full mass matrix in 2-D and 3-D: as a disturbance of
- * everything that particles carry does, measured by a twin that is disturbed by far more. plain: settled after the steps of the case.
- * NAN: the twin did not end. */
+ * everything that particles carry does, measured by twins that are disturbed by far more: the worst of them. plain: settled after the
+ * steps of the case. NAN: a twin did not end. */
 double trial_sensitivity(const struct trial *plain, const struct property_choice *choice, const int *value);
 
 #endif
