@@ -164,15 +164,21 @@ static void test_sums_do_not_depend_on_the_team(void **unused)
   }
 }
 
-/* The first direction that has one, the lowest particle. */
+/* The first direction that has one, the lowest particle; those on the very ends are within. */
 static void test_strays_are_told(void **unused)
 {
   (void)unused;
   struct gx_team *team = gx_team_create(2);
   for (int dim = 1; dim <= GX_MAX_DIM; dim++) {
     struct setting *setting = create(dim, 2, false, team);
-    setting->u[dim - 1][7] = 3;
+    for (int p = 3; p <= 4; p++) {
+      setting->X[dim - 1][p] = p == 3 ? low[dim - 1] : high[dim - 1];
+      setting->u[dim - 1][p] = 0;
+    }
     struct gx_blocks_stray stray = gx_blocks_place(&setting->blocks, setting->u, low, high);
+    assert_int_equal(stray.d, -1);
+    setting->u[dim - 1][7] = 3;
+    stray = gx_blocks_place(&setting->blocks, setting->u, low, high);
     assert_true(stray.d == dim - 1 && stray.particle == 7 && !stray.wide);
     setting->u[0][N - 1] = NAN;
     setting->u[0][N - 9] = -2;
