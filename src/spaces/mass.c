@@ -50,7 +50,7 @@ enum gx_status gx_mass_factor(struct gx_mass *mass, const struct gx_weights *wei
   else if (mass->is_product)
     failed = gx_mass_kronecker_factor(mass->kronecker, weights, m);
   else
-    gx_mass_cg_prepare(mass->cg, weights, m);
+    failed = gx_mass_cg_prepare(mass->cg, weights, m);
   if (!failed) return GX_OK;
   return gx_status_set(outcome, GX_SINGULAR, -1,
                        "the consistent mass matrix is not positive definite: too few particles under a basis function");

@@ -85,7 +85,8 @@ void gx_mass_band_free(struct gx_mass_band *band)
   free(band);
 }
 
-static void assemble(struct gx_mass_band *band, size_t n, const int *first, const double *S, const double *m)
+/* Returns -1 when a function has a negative mass. */
+static int assemble(struct gx_mass_band *band, size_t n, const int *first, const double *S, const double *m)
 {
   const int s = band->axis->support;
   gsl_matrix_set_zero(band->assembled);
@@ -98,9 +99,13 @@ static void assemble(struct gx_mass_band *band, size_t n, const int *first, cons
         if (position[q] >= position[r])
           entry[position[r] * width + position[q] - position[r]] += m[p] * (S[(size_t)q * n + p] * S[(size_t)r * n + p]);
   }
-  double most = 0;
-  for (size_t i = 0; i < band->unknowns; i++) most = fmax(most, entry[i * width]);
+  double least = 0, most = 0;
+  for (size_t i = 0; i < band->unknowns; i++) {
+    least = fmin(least, entry[i * width]);
+    most = fmax(most, entry[i * width]);
+  }
   for (size_t i = 0; i < band->unknowns; i++) band->filled[i] = entry[i * width] > GX_MASS_TRACE * most;
+  return least < GX_MASS_NEGATIVE * most ? -1 : 0;
 }
 
 /* Decouples an unknown from the others: unit diagonal, zero row and column. */
@@ -134,7 +139,7 @@ static bool has_noise(const struct gx_mass_band *band, unsigned ends)
 
 int gx_mass_band_factor(struct gx_mass_band *band, size_t n, const int *first, const double *S, const double *m)
 {
-  assemble(band, n, first, S, m);
+  if (assemble(band, n, first, S, m)) return -1;
   for (unsigned v = 0; v < GX_MASS_ENDS; v++) {
     gsl_matrix *factor = band->factor[v];
     if (!factor) continue;

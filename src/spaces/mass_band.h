@@ -13,6 +13,8 @@ enum { GX_MASS_LANES = 8 }; /* lines that are solved side by side */
 
 /* A function whose M(i, i) is below this share of the largest has no mass but that of round-off in the positions of particles. */
 #define GX_MASS_TRACE 1e-24
+/* The same share below zero is more than round-off: the masses of points that are fitted to particles may be negative. */
+#define GX_MASS_NEGATIVE -1e-12
 
 struct gx_mass_band {
   const struct gx_axis *axis; /* borrowed */

@@ -84,7 +84,7 @@ GX_CORE void add_diagonal(const int dim, const struct gx_weights *w, const doubl
   }
 }
 
-void gx_mass_cg_prepare(struct gx_mass_cg *cg, const struct gx_weights *weights, const double *m)
+int gx_mass_cg_prepare(struct gx_mass_cg *cg, const struct gx_weights *weights, const double *m)
 {
   const struct gx_grid *grid = cg->grid;
   cg->weights = weights;
@@ -92,8 +92,13 @@ void gx_mass_cg_prepare(struct gx_mass_cg *cg, const struct gx_weights *weights,
   memset(cg->scale, 0, grid->stored * sizeof *cg->scale);
   GX_FOR_DIM(grid->dim, add_diagonal(dim, weights, m, cg->scale))
   gx_grid_fold(grid, cg->scale);
-  const double trace = GX_MASS_TRACE * gx_vector_max(grid->stored, cg->scale);
-  for (size_t i = 0; i < grid->stored; i++) cg->scale[i] = cg->scale[i] > trace ? sqrt(cg->box_diagonal[i] / cg->scale[i]) : 0;
+  const double most = gx_vector_max(grid->stored, cg->scale), trace = GX_MASS_TRACE * most;
+  double least = 0;
+  for (size_t i = 0; i < grid->stored; i++) {
+    least = fmin(least, cg->scale[i]);
+    cg->scale[i] = cg->scale[i] > trace ? sqrt(cg->box_diagonal[i] / cg->scale[i]) : 0;
+  }
+  return least < GX_MASS_NEGATIVE * most ? -1 : 0;
 }
 
 GX_CLONES static void multiply(size_t n, const double *restrict factor, double *restrict value)

@@ -18,8 +18,8 @@ struct gx_mass_cg;
 /* For n particles. NULL when memory runs out. grid is borrowed. */
 struct gx_mass_cg *gx_mass_cg_create(const struct gx_grid *grid, const struct gx_basis *basis, size_t n);
 void gx_mass_cg_free(struct gx_mass_cg *cg);
-/* Takes M to be that of weights and m, both borrowed until the next call. */
-void gx_mass_cg_prepare(struct gx_mass_cg *cg, const struct gx_weights *weights, const double *m);
+/* Takes M to be that of weights and m, both borrowed until the next call. Returns 0, or -1 when M(i, i) of a function is negative. */
+int gx_mass_cg_prepare(struct gx_mass_cg *cg, const struct gx_weights *weights, const double *m);
 /* Solves M x = field in place for every vector component at once; functions that are held or that no particle sees get 0.
  * field: [dim][stored], folded; spread on return. Returns the iterations taken, or -1 when M is not positive definite or the
  * iteration does not end. A field that is not finite is left as it is. */

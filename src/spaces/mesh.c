@@ -10,6 +10,7 @@
 #include "../core/aligned.h"
 #include "../core/kernel.h"
 #include "../core/vector.h"
+#include "mass_band.h"
 
 /* Of the least particle's mass. A particle whose domain ends on a node, or on the edge of a quadratic spline, has a share in the function
  * beyond of 0 or of the square of round-off, and a slope of 0 or of round-off: their ratio would strain it by forces of any size. Hats'
@@ -273,7 +274,7 @@ static enum gx_status factor_mass(struct gx_mesh *mesh)
 /* A density that is fitted to few or uneven particles can fall below zero, and a node's mass with it, by more than round-off. */
 static enum gx_status check_fitted_mass(const struct gx_mesh *mesh)
 {
-  const double least = -1e-12 * gx_vector_max(mesh->grid.stored, mesh->mass);
+  const double least = GX_MASS_NEGATIVE * gx_vector_max(mesh->grid.stored, mesh->mass);
   for (size_t i = 0; i < mesh->grid.stored; i++)
     if (mesh->mass[i] < least)
       return gx_status_set(

@@ -116,13 +116,13 @@ static void compare_cg(const struct points *points, const struct gx_basis *basis
   take_fields(grid, again);
   struct gx_mass_cg *cg = gx_mass_cg_create(grid, basis, points->weights.n);
   assert_non_null(cg);
-  gx_mass_cg_prepare(cg, &points->weights, m);
+  assert_int_equal(gx_mass_cg_prepare(cg, &points->weights, m), 0);
   copy_fields(grid, right, field);
   int iterations = gx_mass_cg_solve(cg, field);
   CHECK(iterations >= 0, "%s degree %d, %d-D: no end", basis->name, grid->axis[0].degree, grid->dim);
   compare(points, m, right, field, iterated, conditioned);
   copy_fields(grid, right, again);
-  gx_mass_cg_prepare(cg, &points->weights, m);
+  assert_int_equal(gx_mass_cg_prepare(cg, &points->weights, m), 0);
   assert_int_equal(gx_mass_cg_solve(cg, again), iterations); /* the same whatever came before */
   assert_memory_equal(field[0], again[0], (size_t)grid->dim * grid->stored * sizeof(double));
   memset(again[0], 0, (size_t)grid->dim * grid->stored * sizeof(double));
@@ -384,10 +384,33 @@ static void what_round_off_reaches_is_taken_out(void **state)
   assert_int_equal(gx_mass_band_factor(band, 13, points.weights.first[0], points.weights.S[0], m), 0);
   gx_mass_band_solve(band, 0, field[0]);
   struct gx_mass_cg *cg = gx_mass_cg_create(&points.grid, basis, 13);
-  gx_mass_cg_prepare(cg, &points.weights, m);
+  assert_int_equal(gx_mass_cg_prepare(cg, &points.weights, m), 0);
   assert_true(gx_mass_cg_solve(cg, (double *[]){field[1]}) > 0);
   for (int k = 0; k < 2; k++) assert_true(field[k][5] == 0 && field[k][6] == 0);
   for (int i = 0; i < 5; i++) NEAR(field[0][i], field[1][i], 1e-11 * fabs(field[0][4]));
+  gx_mass_band_free(band);
+  gx_mass_cg_free(cg);
+  points_free(&points);
+}
+
+/* Functions that one point of negative mass sees, far from the others, are not taken for functions that no point sees. */
+static void negative_mass_is_reported(void **state)
+{
+  (void)state;
+  const struct gx_basis *basis = gx_basis_find("linear");
+  double x[10], half[10] = {0}, m[10];
+  for (int p = 0; p < 10; p++) {
+    x[p] = p < 9 ? (p + 0.5) / 18 : 0.9; /* cells 0 to 2 of 6, and the last one */
+    m[p] = p < 9 ? 1 : -1;
+  }
+  struct points points = points_at(basis, 1, 6, false, 1, 10, (double *[]){x}, (double *[]){half});
+  struct gx_mass_band *band = gx_mass_band_create(&points.grid.axis[0], 1);
+  struct gx_mass_cg *cg = gx_mass_cg_create(&points.grid, basis, 10);
+  for (int negative = 1; negative >= 0; negative--) {
+    if (!negative) m[9] = 1;
+    assert_int_equal(gx_mass_band_factor(band, 10, points.weights.first[0], points.weights.S[0], m), -negative);
+    assert_int_equal(gx_mass_cg_prepare(cg, &points.weights, m), -negative);
+  }
   gx_mass_band_free(band);
   gx_mass_cg_free(cg);
   points_free(&points);
@@ -404,7 +427,7 @@ static void what_is_not_finite_stays_so(void **state)
   take_fields(&points.grid, field);
   field[0][3] = NAN;
   field[1][3] = 1;
-  gx_mass_cg_prepare(cg, &points.weights, m);
+  assert_int_equal(gx_mass_cg_prepare(cg, &points.weights, m), 0);
   assert_true(gx_mass_cg_solve(cg, field) > 0);
   assert_true(isnan(field[0][3]));
   assert_true(isfinite(field[1][3]));
@@ -418,10 +441,15 @@ int main(void)
 {
   gsl_set_error_handler_off();
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(solvers_agree_with_a_dense_one),       cmocka_unit_test(products_are_solved_by_directions),
-      cmocka_unit_test(what_is_no_product_is_seen),           cmocka_unit_test(nodes_without_mass_are_taken_out),
-      cmocka_unit_test(the_solution_of_lumped_masses_is_one), cmocka_unit_test(too_few_particles_are_reported),
-      cmocka_unit_test(what_round_off_reaches_is_taken_out),  cmocka_unit_test(what_is_not_finite_stays_so),
+      cmocka_unit_test(solvers_agree_with_a_dense_one),
+      cmocka_unit_test(products_are_solved_by_directions),
+      cmocka_unit_test(what_is_no_product_is_seen),
+      cmocka_unit_test(nodes_without_mass_are_taken_out),
+      cmocka_unit_test(the_solution_of_lumped_masses_is_one),
+      cmocka_unit_test(too_few_particles_are_reported),
+      cmocka_unit_test(what_round_off_reaches_is_taken_out),
+      cmocka_unit_test(what_is_not_finite_stays_so),
+      cmocka_unit_test(negative_mass_is_reported),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
