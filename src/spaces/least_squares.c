@@ -120,7 +120,7 @@ static int cholesky(int n, double *row)
       if (j < i) {
         at[i][j] = sum * at[j][j];
       } else {
-        if (!(sum > 1e-7 * diagonal)) return i;
+        if (!(sum > GX_LEAST_SQUARES_PIVOT * diagonal)) return i;
         at[i][i] = 1 / sqrt(sum);
       }
     }

@@ -7,6 +7,10 @@
 
 #include "reconstruction.h"
 
+/* The least share that a monomial may have of its own, beyond those before it; below, it and all of its degree are left out. The square
+ * of a fit's condition, which normal equations lose, is about the inverse of this at most. */
+#define GX_LEAST_SQUARES_PIVOT 1e-7
+
 /* degree: of the polynomials, 1 to GX_LEAST_SQUARES_DEGREE. points: per_cell Gauss points a cell and direction of the grid, on a
  * lattice, borrowed. n: number of particles. */
 enum { GX_LEAST_SQUARES_DEGREE = 5 };

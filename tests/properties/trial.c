@@ -2,6 +2,7 @@
 /* Building random cases and their twins. */
 #include "trial.h"
 
+#include "spaces/least_squares.h"
 #include "spaces/mass_cg.h"
 #include "spaces/mesh.h"
 
@@ -349,6 +350,9 @@ double trial_sensitivity(const struct trial *plain, const struct property_choice
     if (!(apart <= distance)) distance = apart;
   }
   double each = 0x1p-53 * trial_roundings(plain);
-  if (simulation->space_options.consistent && simulation->problem_options.dim > 1) each += GX_MASS_CG_TOLERANCE;
+  const bool above = simulation->problem_options.dim > 1;
+  if (above && simulation->space_options.consistent) each += GX_MASS_CG_TOLERANCE;
+  if (above && simulation->space_options.reconstructed)
+    each /= sqrt(GX_LEAST_SQUARES_PIVOT); /* normal equations: the condition once more */
   return distance / disturbance * each * value[TRIAL_STEPS] * (simulation->clock->stages + 1);
 }
