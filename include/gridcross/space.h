@@ -55,7 +55,7 @@ enum gx_primitive {
 
 enum { GX_MAX_STATE = 48 }; /* in 3-D u, v, F, P and nodal velocity are 27 */
 
-/* The arrays that a space advances in time; what a Runge–Kutta engine combines. */
+/* The arrays that a space advances in time, the components of displacement first; what a Runge–Kutta engine combines. */
 struct gx_state {
   int count;
   double *array[GX_MAX_STATE];

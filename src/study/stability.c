@@ -14,12 +14,15 @@
 #include "../core/large.h"
 
 enum { LEAST_ITERATIONS = (GX_STABILITY_LEAST - 1) / 2, MOST_ITERATIONS = (GX_STABILITY_EVALUATIONS - 1) / 2 };
-static const double settled = 1e-3; /* relative change that ends the iteration */
+static const double settled = 3e-4; /* relative change that ends the iteration */
+/* Of a displacement, in widths of the domain: far above round-off, of which rates divided by masses near zero have most; where
+ * particles move through cells, below what takes many to another one. */
+static const double reach = 1e-6, reach_through_cells = 1e-8;
 
 struct iteration {
   struct gx_space *space;
   struct gx_state state;
-  size_t total;
+  size_t total, displacements; /* numbers of the state; the first of them */
   double *start, *rest, *vector, *rate;
 };
 
@@ -46,10 +49,19 @@ static double norm(const double *vector, size_t n)
   return sqrt(sum);
 }
 
+/* How much of the vector is added to the state for a difference: rates are linear in velocities, however large. */
+static double scale_of(const struct iteration *it)
+{
+  const double most = it->space->through_cells ? reach_through_cells : reach;
+  double largest = 0;
+  for (size_t i = 0; i < it->displacements; i++) largest = fmax(largest, fabs(it->vector[i]));
+  return most / (largest > 0 ? largest : norm(it->vector, it->total));
+}
+
 /* vector <- J vector */
 static int apply(struct iteration *it)
 {
-  double scale = 1e-7 / norm(it->vector, it->total);
+  const double scale = scale_of(it);
   load(it, it->start, it->vector, scale);
   if (evaluate(it, it->rate)) return -1;
   for (size_t i = 0; i < it->total; i++) it->vector[i] = (it->rate[i] - it->rest[i]) / scale;
@@ -83,6 +95,7 @@ static double with_state(struct gx_space *space, double (*compute)(struct iterat
   struct iteration it = {.space = space};
   space->kind->state(space, &it.state);
   for (int i = 0; i < it.state.count; i++) it.total += it.state.length[i];
+  for (int d = 0; d < space->particles->dim; d++) it.displacements += it.state.length[d];
   double *block = gx_large_zeros(4 * it.total * sizeof(double));
   if (!block) return NAN;
   it.start = block;

@@ -37,6 +37,7 @@ NUMERICS = ["src/spaces/*.[ch]", "src/bases/*.[ch]", "src/clocks/*.c", "src/mate
 OPTIONS = ["-Dbuildtype=plain", "-Doptimization=1", "-Dclones=disabled", "-Dtests=enabled", "-Dmpi=disabled", "-Dman=disabled"]
 SANITIZERS = ["-Db_sanitize=address,undefined"]
 HALT = {"ASAN_OPTIONS": "halt_on_error=1:detect_leaks=0", "UBSAN_OPTIONS": "halt_on_error=1"}
+SANITIZED = 60  # s of processor time that a test may take there: longer ones say little of memory that shorter ones do not
 MEMORY, DISK = 4 << 30, 1 << 30  # what one test may take; sanitizers set aside far more than they use
 NAMES = {**{s.value: s.name for s in signal.Signals}, signal.SIGXCPU: "endless", signal.SIGKILL: "endless"}
 Test = collections.namedtuple("Test", "name command")
@@ -221,7 +222,7 @@ def work(place, longest, left, results, told, stop):
             mutant = left.get_nowait()
             (point, other), result = mutant, tree.try_mutant(*mutant)
             if result[0] == "survived":
-                strict = strict or Tree(place / "strict", SANITIZERS, longest, stop)
+                strict = strict or Tree(place / "strict", SANITIZERS, min(longest, SANITIZED), stop)
                 result = strict.try_mutant(*mutant)
             with told:
                 results.append((mutant, result))
