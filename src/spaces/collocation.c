@@ -46,10 +46,18 @@ static enum gx_status allocate_arrays(struct gx_collocation *c)
   return GX_OK;
 }
 
-static long stress_from(struct gx_collocation *c, size_t points)
+/* P where F is the strain; returns the first particle, or end behind them, that is tangled, or -1. */
+static long stress_from_strain(struct gx_collocation *c)
 {
   const struct gx_posed *posed = c->space.posed;
-  return posed->problem->material->piola(&posed->options.moduli, c->space.particles->dim, points, c->F, c->P);
+  const struct gx_particles *particles = c->space.particles;
+  /* stress by rate: only to see whether F still is a deformation */
+  if (c->options.stress_rate)
+    return posed->problem->material->piola(&posed->options.moduli, particles->dim, c->n, particles->F, c->rate_P);
+  const size_t points = c->n + (c->lattice.stress_at_ends ? 2 : 0);
+  const long tangled = posed->problem->material->piola(&posed->options.moduli, particles->dim, points, c->F, c->P);
+  if (c->lattice.stress_at_ends) memcpy(particles->P[0], c->P[0], c->n * sizeof(double));
+  return tangled;
 }
 
 static enum gx_status refuse(const struct gx_space_kind *kind, const struct gx_space_options *options,
@@ -170,11 +178,8 @@ enum gx_status gx_collocation_accelerate(struct gx_space *space, double t)
   const int dim = particles->dim;
   const bool by_F = !c->options.reference && !c->options.papers_divergence;
   if (c->strained) deformation_gradient(c);
-  if (!c->options.stress_rate) {
-    long tangled = stress_from(c, c->n + (c->lattice.stress_at_ends ? 2 : 0));
-    if (c->lattice.stress_at_ends) memcpy(particles->P[0], c->P[0], c->n * sizeof(double));
-    if (tangled >= 0) return report_tangled(c, (size_t)tangled);
-  }
+  const long tangled = stress_from_strain(c);
+  if (tangled >= 0) return report_tangled(c, (size_t)tangled);
   for (int d = 0; d < dim; d++) {
     gx_spline_lattice_divergence(&c->lattice, d, c->P + d * dim, c->a[d]);
     scale(c->n, 1 / posed->options.moduli.density, by_F ? particles->F[0] : NULL, c->a[d]);
