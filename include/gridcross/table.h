@@ -11,6 +11,7 @@ struct gx_column {
   char *name;        /* owned; "mesh.cells", "result.status" */
   char *unit;        /* owned; "" when none */
   enum gx_type type; /* of its non-null values */
+  size_t width;      /* bytes that its texts have at most; 0: any number, or no texts */
 };
 
 struct gx_table {
@@ -26,8 +27,10 @@ struct gx_table *gx_table_create(size_t columns, size_t rows);
 /* All values are null again; columns and memory stay. */
 void gx_table_clear(struct gx_table *table);
 void gx_table_free(struct gx_table *table);
-/* Copies name and unit. Returns 0, or -1 when memory runs out. */
+/* Copies name and unit; width is 0. Returns 0, or -1 when memory runs out. */
 int gx_table_column(struct gx_table *table, size_t column, const char *name, const char *unit, enum gx_type type);
+/* A column like another one, without its values. Returns 0, or -1 when memory runs out. */
+int gx_table_column_like(struct gx_table *table, size_t column, const struct gx_column *like);
 /* Stores a value; copies text. Returns 0, or -1 when memory runs out. */
 int gx_table_set(struct gx_table *table, size_t row, size_t column, struct gx_value value);
 struct gx_value gx_table_get(const struct gx_table *table, size_t row, size_t column);

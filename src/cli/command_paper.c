@@ -315,8 +315,7 @@ static struct gx_table *join(const struct session *session)
   const struct gx_table *any = session->table[0];
   struct gx_table *all = gx_table_create(any->columns, rows);
   int failed = !all;
-  for (size_t c = 0; c < any->columns && !failed; c++)
-    failed = gx_table_column(all, c, any->column[c].name, any->column[c].unit, any->column[c].type);
+  for (size_t c = 0; c < any->columns && !failed; c++) failed = gx_table_column_like(all, c, &any->column[c]);
   for (size_t i = 0; i < session->count; i++)
     for (size_t r = 0; r < session->table[i]->rows && !failed; r++, at++)
       for (size_t c = 0; c < any->columns && !failed; c++)

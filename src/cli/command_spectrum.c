@@ -166,7 +166,7 @@ static struct gx_table *summary(const struct request *request)
   int failed = !table;
   for (size_t c = 0; c < count && !failed; c++) {
     const struct gx_column *from = &full->column[column[c]];
-    failed = gx_table_column(table, c, from->name, from->unit, from->type);
+    failed = gx_table_column_like(table, c, from);
     for (size_t r = 0; r < request->rows && !failed; r++)
       failed = gx_table_set(table, r, c, gx_table_get(full, request->row[r], column[c]));
   }

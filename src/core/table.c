@@ -59,6 +59,13 @@ int gx_table_column(struct gx_table *table, size_t column, const char *name, con
   return 0;
 }
 
+int gx_table_column_like(struct gx_table *table, size_t column, const struct gx_column *like)
+{
+  int failed = gx_table_column(table, column, like->name, like->unit, like->type);
+  if (!failed) table->column[column].width = like->width;
+  return failed;
+}
+
 static const char *keep_text(struct gx_table *table, const char *text)
 {
   if (table->text_count == table->text_room) {

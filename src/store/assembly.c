@@ -55,8 +55,7 @@ static struct gx_table *table_like(const struct gx_table *like, size_t rows)
 {
   struct gx_table *table = gx_table_create(like->columns, rows);
   int failed = !table;
-  for (size_t c = 0; c < like->columns && !failed; c++)
-    failed = gx_table_column(table, c, like->column[c].name, like->column[c].unit, like->column[c].type);
+  for (size_t c = 0; c < like->columns && !failed; c++) failed = gx_table_column_like(table, c, &like->column[c]);
   if (!failed) return table;
   gx_table_free(table);
   return NULL;

@@ -19,11 +19,12 @@ void gx_handle_restore(struct gx_handle_silence old)
   H5Eset_auto2(H5E_DEFAULT, old.function, old.data);
 }
 
-hid_t gx_handle_text_type(void)
+hid_t gx_handle_text_type(size_t width)
 {
   hid_t type = H5Tcopy(H5T_C_S1);
   if (type < 0) return type;
-  if (H5Tset_size(type, H5T_VARIABLE) < 0 || H5Tset_cset(type, H5T_CSET_UTF8) < 0) {
+  if (H5Tset_size(type, width ? width : H5T_VARIABLE) < 0 || H5Tset_cset(type, H5T_CSET_UTF8) < 0 ||
+      (width && H5Tset_strpad(type, H5T_STR_NULLPAD) < 0)) {
     H5Tclose(type);
     return -1;
   }
@@ -43,7 +44,7 @@ int gx_handle_put_attribute(hid_t object, const char *name, hid_t file_type, hid
 
 int gx_handle_put_text(hid_t object, const char *name, const char *text)
 {
-  hid_t type = gx_handle_text_type();
+  hid_t type = gx_handle_text_type(0);
   int failed = type < 0 ? -1 : gx_handle_put_attribute(object, name, type, type, &text);
   if (type >= 0) H5Tclose(type);
   return failed;
@@ -83,7 +84,7 @@ char *gx_handle_get_text(hid_t object, const char *name)
   char *text = NULL, *copy = NULL;
   hid_t attribute = H5Aopen(object, name, H5P_DEFAULT);
   if (attribute < 0) return NULL;
-  hid_t type = gx_handle_text_type(), stored = H5Aget_type(attribute), space = H5Aget_space(attribute);
+  hid_t type = gx_handle_text_type(0), stored = H5Aget_type(attribute), space = H5Aget_space(attribute);
   if (type >= 0 && stored >= 0 && space >= 0 && H5Tis_variable_str(stored) > 0 && H5Sget_simple_extent_npoints(space) == 1 &&
       H5Aread(attribute, type, &text) >= 0) {
     copy = strdup(text ? text : "");
@@ -110,6 +111,12 @@ int gx_handle_get_integer(hid_t object, const char *name, int64_t *value)
   return failed;
 }
 
+/* 0: not of texts that are all as wide. */
+static size_t width_of(hid_t type)
+{
+  return H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) <= 0 ? H5Tget_size(type) : 0;
+}
+
 hssize_t gx_handle_shape(hid_t dataset, enum gx_type *type)
 {
   enum { WIDEST = 16 }; /* bytes of a number: HDF5 converts damaged types of any width, for ever */
@@ -117,13 +124,21 @@ hssize_t gx_handle_shape(hid_t dataset, enum gx_type *type)
   hid_t space = H5Dget_space(dataset), stored = H5Dget_type(dataset);
   if (space >= 0 && stored >= 0 && H5Sget_simple_extent_ndims(space) == 1) {
     H5T_class_t class = H5Tget_class(stored);
-    *type = class == H5T_FLOAT ? GX_REAL : class == H5T_INTEGER ? GX_INTEGER : H5Tis_variable_str(stored) > 0 ? GX_TEXT : GX_NULL;
-    if (H5Tget_size(stored) > WIDEST) *type = GX_NULL;
+    *type = class == H5T_FLOAT ? GX_REAL : class == H5T_INTEGER ? GX_INTEGER : class == H5T_STRING ? GX_TEXT : GX_NULL;
+    if (H5Tget_size(stored) > (width_of(stored) ? GX_HANDLE_WIDEST : WIDEST)) *type = GX_NULL;
     if (*type != GX_NULL) rows = H5Sget_simple_extent_npoints(space);
   }
   if (stored >= 0) H5Tclose(stored);
   if (space >= 0) H5Sclose(space);
   return rows;
+}
+
+size_t gx_handle_width(hid_t dataset)
+{
+  hid_t stored = H5Dget_type(dataset);
+  const size_t width = stored < 0 ? 0 : width_of(stored);
+  if (stored >= 0) H5Tclose(stored);
+  return width;
 }
 
 bool gx_handle_holds(hid_t object, double numbers)

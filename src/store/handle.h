@@ -11,8 +11,10 @@
 #include <gridcross/value.h>
 
 enum {
-  GX_HDF5_FORMAT = 2,  /* of study.h5 */
-  GX_HANDLE_NAME = 256 /* room for a member's name */
+  GX_HDF5_FORMAT = 3,    /* of study.h5: texts of known length are as wide as the longest */
+  GX_HDF5_OLDEST = 2,    /* that is read */
+  GX_HANDLE_NAME = 256,  /* room for a member's name */
+  GX_HANDLE_WIDEST = 256 /* bytes of a text in a column that has a width */
 };
 
 /* HDF5 prints its error stack by default; we print one message instead. */
@@ -27,8 +29,8 @@ void gx_handle_restore(struct gx_handle_silence old);
 
 /* Below, functions that return int give 0 or -1, those that return hid_t an identifier to be closed, or less than 0. */
 
-/* UTF-8 of any length. */
-hid_t gx_handle_text_type(void);
+/* UTF-8 of so many bytes, padded with zeros; 0: of any length. */
+hid_t gx_handle_text_type(size_t width);
 /* A scalar attribute. */
 int gx_handle_put_attribute(hid_t object, const char *name, hid_t file_type, hid_t memory_type, const void *value);
 int gx_handle_put_text(hid_t object, const char *name, const char *text);
@@ -51,6 +53,8 @@ hid_t gx_handle_make_dataset(hid_t group, const char *name, hid_t type, size_t r
 bool gx_handle_is_stored(hid_t dataset);
 /* Number of rows and type of a dataset that can be a column, or -1. */
 hssize_t gx_handle_shape(hid_t dataset, enum gx_type *type);
+/* Bytes of each of its texts, up to GX_HANDLE_WIDEST; 0: any number, or no texts. */
+size_t gx_handle_width(hid_t dataset);
 /* Whether the file that an object is of is as large as so many numbers of 8 bytes: what claims more is damaged, and no memory is taken
  * for it. */
 bool gx_handle_holds(hid_t object, double numbers);

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "../core/nearest.h"
-#include "entry.h"
+#include "hdf5_column.h"
 #include "hdf5_read.h"
 #include "hdf5_rows.h"
 #include "seal.h"
@@ -16,26 +16,7 @@ static int get_column(hid_t dataset, const char *name, struct gx_table *table, s
 {
   enum gx_type type;
   if (gx_handle_shape(dataset, &type) != (hssize_t)table->rows) return -1;
-  int failed = -1;
-  char *unit = gx_handle_get_text(dataset, "unit");
-  if (!gx_handle_is_stored(dataset)) { /* all null */
-    failed = gx_table_column(table, c, name, unit ? unit : "", type);
-    free(unit);
-    return failed;
-  }
-  union gx_entry *entry = calloc(table->rows + 1, sizeof *entry);
-  hid_t text = gx_handle_text_type(), space = H5Dget_space(dataset);
-  hid_t memory_type = type == GX_REAL ? H5T_NATIVE_DOUBLE : type == GX_INTEGER ? H5T_NATIVE_INT64 : text;
-  if (entry && text >= 0 && space >= 0 && H5Dread(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, entry) >= 0) {
-    failed = gx_table_column(table, c, name, unit ? unit : "", type);
-    for (size_t r = 0; r < table->rows && !failed; r++) failed = gx_table_set(table, r, c, gx_entry_value(type, entry[r]));
-    if (type == GX_TEXT) H5Dvlen_reclaim(text, space, H5P_DEFAULT, entry);
-  }
-  if (space >= 0) H5Sclose(space);
-  if (text >= 0) H5Tclose(text);
-  free(entry);
-  free(unit);
-  return failed;
+  return gx_hdf5_column_name(dataset, name, table, c) || gx_hdf5_column_read(dataset, 0, table, c) ? -1 : 0;
 }
 
 struct gx_table *gx_hdf5_read_group(hid_t group)
@@ -80,14 +61,15 @@ hid_t gx_hdf5_read_open(const char *path, FILE *errors)
     return -1;
   }
   hid_t provenance = gx_handle_open_group(file, "provenance"), table = gx_handle_open_group(file, "table");
-  bool ours = provenance >= 0 && table >= 0 && !gx_handle_get_integer(provenance, "format", &format);
+  bool known = false, ours = provenance >= 0 && table >= 0 && !gx_handle_get_integer(provenance, "format", &format);
   if (!ours)
     fprintf(errors, "%s: is not a study, or is damaged" GX_SEAL_REMEDY "\n", path);
-  else if (format != GX_HDF5_FORMAT)
-    fprintf(errors, "%s: has format %lld; this gridcross reads format %d\n", path, (long long)format, GX_HDF5_FORMAT);
+  else if (!(known = format >= GX_HDF5_OLDEST && format <= GX_HDF5_FORMAT))
+    fprintf(errors, "%s: has format %lld; this gridcross reads formats %d to %d\n", path, (long long)format, GX_HDF5_OLDEST,
+            GX_HDF5_FORMAT);
   if (table >= 0) H5Gclose(table);
   if (provenance >= 0) H5Gclose(provenance);
-  if (ours && format == GX_HDF5_FORMAT) return file;
+  if (known) return file;
   gx_seal_close(file);
   return -1;
 }

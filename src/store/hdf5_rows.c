@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "entry.h"
+#include "hdf5_column.h"
 #include "hdf5_read.h"
 #include "seal.h"
 
@@ -13,7 +13,7 @@ struct gx_hdf5_rows {
   const char *path;
   FILE *errors;
   struct gx_handle_silence silence;
-  hid_t file, group, text;
+  hid_t file, group;
   hid_t *dataset;        /* [like->columns], owned */
   size_t stored;         /* of them; the others are null */
   struct gx_table *like; /* owned: names, units and types of the columns */
@@ -40,18 +40,15 @@ static int open_column(struct gx_hdf5_rows *rows, const char *name)
     if (dataset >= 0) H5Dclose(dataset);
     return -1;
   }
-  char *unit = gx_handle_get_text(dataset, "unit");
   rows->total = (size_t)total;
   rows->stored += gx_handle_is_stored(dataset);
   rows->like->columns++;
-  int failed = gx_table_column(rows->like, c, name, unit ? unit : "", type);
-  free(unit);
-  return failed;
+  return gx_hdf5_column_name(dataset, name, rows->like, c);
 }
 
 static int open_columns(struct gx_hdf5_rows *rows, size_t columns, const char *const *name)
 {
-  const hssize_t members = rows->group < 0 || rows->text < 0 ? -1 : gx_handle_members(rows->group);
+  const hssize_t members = rows->group < 0 ? -1 : gx_handle_members(rows->group);
   if (members <= 0) return -1;
   rows->dataset = calloc((size_t)members, sizeof *rows->dataset);
   rows->like = gx_table_create((size_t)members, 0);
@@ -75,7 +72,6 @@ struct gx_hdf5_rows *gx_hdf5_rows_begin(const char *path, size_t columns, const 
   *rows = (struct gx_hdf5_rows){.path = path, .errors = errors, .silence = gx_handle_silence()};
   rows->file = gx_hdf5_read_open(path, errors);
   rows->group = rows->file < 0 ? -1 : gx_handle_open_group(rows->file, "table");
-  rows->text = gx_handle_text_type();
   if (rows->file >= 0 && !open_columns(rows, columns, name)) return rows;
   if (rows->file >= 0) fprintf(errors, "%s: its table is damaged" GX_SEAL_REMEDY "\n", path);
   gx_hdf5_rows_end(rows);
@@ -92,38 +88,15 @@ void gx_hdf5_rows_seek(struct gx_hdf5_rows *rows, size_t row)
   rows->next = row < rows->total ? row : rows->total;
 }
 
-static int read_column(struct gx_hdf5_rows *rows, struct gx_table *table, size_t c, union gx_entry *entry)
-{
-  const enum gx_type type = rows->like->column[c].type;
-  if (!gx_handle_is_stored(rows->dataset[c]))
-    return gx_table_column(table, c, rows->like->column[c].name, rows->like->column[c].unit, type);
-  const hid_t memory_type = type == GX_REAL ? H5T_NATIVE_DOUBLE : type == GX_INTEGER ? H5T_NATIVE_INT64 : rows->text;
-  hsize_t first[1] = {rows->next}, count[1] = {table->rows};
-  hid_t space = H5Dget_space(rows->dataset[c]), memory = H5Screate_simple(1, count, NULL);
-  int failed = gx_table_column(table, c, rows->like->column[c].name, rows->like->column[c].unit, type);
-  if (space < 0 || memory < 0 || H5Sselect_hyperslab(space, H5S_SELECT_SET, first, NULL, count, NULL) < 0) failed = -1;
-  if (!failed && H5Dread(rows->dataset[c], memory_type, memory, space, H5P_DEFAULT, entry) < 0) failed = -1;
-  if (!failed) {
-    for (size_t r = 0; r < table->rows && !failed; r++) failed = gx_table_set(table, r, c, gx_entry_value(type, entry[r]));
-    if (type == GX_TEXT) H5Dvlen_reclaim(rows->text, memory, H5P_DEFAULT, entry);
-  }
-  if (memory >= 0) H5Sclose(memory);
-  if (space >= 0) H5Sclose(space);
-  return failed;
-}
-
 struct gx_table *gx_hdf5_rows_next(struct gx_hdf5_rows *rows, size_t most, size_t more)
 {
   size_t left = rows->total - rows->next, count = left < most ? left : most;
   struct gx_table *table = gx_table_create(rows->like->columns + more, count);
-  union gx_entry *entry = calloc(count + 1, sizeof *entry);
-  int failed = !table || !entry;
-  for (size_t c = 0; c < rows->like->columns && !failed; c++) {
-    memset(entry, 0, count * sizeof *entry); /* what a damaged file leaves out */
-    failed = read_column(rows, table, c, entry);
-  }
+  int failed = !table;
+  for (size_t c = 0; c < rows->like->columns && !failed; c++)
+    failed =
+        gx_table_column_like(table, c, &rows->like->column[c]) || gx_hdf5_column_read(rows->dataset[c], rows->next, table, c);
   if (failed) fprintf(rows->errors, "%s: its table is damaged" GX_SEAL_REMEDY "\n", rows->path);
-  free(entry);
   rows->next += count;
   if (!failed) return table;
   gx_table_free(table);
@@ -183,7 +156,6 @@ void gx_hdf5_rows_end(struct gx_hdf5_rows *rows)
 {
   if (!rows) return;
   for (size_t c = 0; rows->like && c < rows->like->columns; c++) H5Dclose(rows->dataset[c]);
-  if (rows->text >= 0) H5Tclose(rows->text);
   if (rows->group >= 0) H5Gclose(rows->group);
   if (rows->file >= 0) gx_seal_close(rows->file);
   gx_handle_restore(rows->silence);

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writing study.h5. Object times are off, so that equal studies give equal bytes. In a dataset NaN, the attribute `null` of an
- * integer column, and the null string stand for null. */
+/* Writing study.h5. Object times are off, so that equal studies give equal bytes. */
 #include "hdf5_write.h"
 
 #include <errno.h>
@@ -10,8 +9,7 @@
 #include <unistd.h>
 
 #include "disk.h"
-#include "entry.h"
-#include "handle.h"
+#include "hdf5_column.h"
 #include "seal.h"
 
 const char *const gx_hdf5_write_kept_name[GX_HDF5_KEPT] = {"histories", "spectra"};
@@ -19,11 +17,8 @@ const char *const gx_hdf5_write_kept_name[GX_HDF5_KEPT] = {"histories", "spectra
 /* A table in a group, its datasets open for rows to come. */
 struct sheet {
   size_t columns, rows, written;
-  enum gx_type *type; /* [columns], owned */
-  hid_t *dataset;     /* [columns], owned */
-  hid_t group, space, text, transfer;
-  union gx_entry *entry; /* [room], owned: a column of the rows that are written at once */
-  size_t room;
+  hid_t *dataset; /* [columns], owned */
+  hid_t group, space, transfer;
 };
 
 struct gx_hdf5_writer {
@@ -36,42 +31,17 @@ struct gx_hdf5_writer {
   struct sheet table;
 };
 
-static hid_t file_type(const struct sheet *sheet, enum gx_type type)
-{
-  return type == GX_REAL ? H5T_IEEE_F64LE : type == GX_INTEGER ? H5T_STD_I64LE : sheet->text;
-}
-
-static hid_t memory_type(const struct sheet *sheet, enum gx_type type)
-{
-  return type == GX_REAL ? H5T_NATIVE_DOUBLE : type == GX_INTEGER ? H5T_NATIVE_INT64 : sheet->text;
-}
-
 static int close_sheet(struct sheet *sheet)
 {
   int failed = 0;
   for (size_t c = 0; sheet->dataset && c < sheet->columns; c++)
     if (sheet->dataset[c] > 0 && H5Dclose(sheet->dataset[c]) < 0) failed = -1;
   if (sheet->space > 0) H5Sclose(sheet->space);
-  if (sheet->text > 0) H5Tclose(sheet->text);
   if (sheet->transfer > 0) H5Pclose(sheet->transfer);
   if (sheet->group > 0 && H5Gclose(sheet->group) < 0) failed = -1;
   free(sheet->dataset);
-  free(sheet->type);
-  free(sheet->entry);
   *sheet = (struct sheet){0};
   return failed;
-}
-
-static int make_column(struct sheet *sheet, size_t c, const struct gx_column *column)
-{
-  const enum gx_type type = column->type;
-  const union gx_entry null = gx_entry_from(type, (struct gx_value){.type = GX_NULL});
-  hid_t dataset = gx_handle_make_dataset(sheet->group, column->name, file_type(sheet, type), sheet->rows,
-                                         memory_type(sheet, type), type == GX_TEXT ? NULL : &null);
-  sheet->type[c] = type;
-  sheet->dataset[c] = dataset;
-  if (dataset < 0 || gx_handle_put_text(dataset, "unit", column->unit)) return -1;
-  return type == GX_INTEGER ? gx_handle_put_integer(dataset, "null", gx_entry_null) : 0;
 }
 
 /* HDF5 clears a buffer of 1 MiB by default for each piece of a column of texts, which takes longer than writing it. */
@@ -89,16 +59,13 @@ static int make_sheet(struct sheet *sheet, hid_t parent, const char *name, const
 {
   hsize_t shape[1] = {rows};
   *sheet = (struct sheet){.columns = columns, .rows = rows};
-  sheet->type = calloc(columns + 1, sizeof *sheet->type);
   sheet->dataset = calloc(columns + 1, sizeof *sheet->dataset);
-  sheet->text = gx_handle_text_type();
   sheet->transfer = small_transfers();
   sheet->space = H5Screate_simple(1, shape, NULL);
   sheet->group = gx_handle_make_group(parent, name);
-  if (!sheet->type || !sheet->dataset || sheet->text < 0 || sheet->transfer < 0 || sheet->space < 0 || sheet->group < 0)
-    return -1;
+  if (!sheet->dataset || sheet->transfer < 0 || sheet->space < 0 || sheet->group < 0) return -1;
   for (size_t c = 0; c < columns; c++)
-    if (make_column(sheet, c, &table->column[c])) return -1;
+    if ((sheet->dataset[c] = gx_hdf5_column_create(sheet->group, &table->column[c], rows)) < 0) return -1;
   return 0;
 }
 
@@ -107,25 +74,10 @@ static int write_rows(struct sheet *sheet, const struct gx_table *part, size_t r
   hsize_t first[1] = {sheet->written}, count[1] = {rows};
   if (!rows) return 0;
   if (part->columns < sheet->columns || rows > sheet->rows - sheet->written) return -1;
-  if (rows > sheet->room) {
-    union gx_entry *grown = realloc(sheet->entry, rows * sizeof *grown);
-    if (!grown) return -1;
-    sheet->entry = grown;
-    sheet->room = rows;
-  }
   hid_t memory = H5Screate_simple(1, count, NULL);
   int failed = memory < 0 || H5Sselect_hyperslab(sheet->space, H5S_SELECT_SET, first, NULL, count, NULL) < 0 ? -1 : 0;
-  for (size_t c = 0; c < sheet->columns && !failed; c++) {
-    const enum gx_type type = sheet->type[c];
-    bool any = false; /* a column without values takes no room */
-    const struct gx_value *value = part->value + c;
-    for (size_t r = 0; r < rows; r++, value += part->columns) {
-      sheet->entry[r] = gx_entry_from(type, *value);
-      any = any || value->type != GX_NULL;
-    }
-    if (any && H5Dwrite(sheet->dataset[c], memory_type(sheet, type), memory, sheet->space, sheet->transfer, sheet->entry) < 0)
-      failed = -1;
-  }
+  for (size_t c = 0; c < sheet->columns && !failed; c++)
+    failed = gx_hdf5_column_write(sheet->dataset[c], part, c, rows, memory, sheet->space, sheet->transfer);
   if (memory >= 0) H5Sclose(memory);
   sheet->written += rows;
   return failed;

@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdarg.h>
+#include <string.h>
 
 static const char *const norms[GX_NORMS] = {[GX_INF] = "inf", [GX_RMS] = "rms", [GX_L2N] = "l2n"};
 
@@ -27,6 +28,21 @@ __attribute__((format(printf, 2, 3))) static const char *named(struct cursor *at
   return at->name;
 }
 
+/* Bytes of the longest of the texts that a parameter admits; 0: any. */
+static size_t width_of(const struct gx_parameter *parameter)
+{
+  size_t width = 0;
+  for (int i = 0; parameter->choice && parameter->choice(i); i++)
+    if (strlen(parameter->choice(i)) > width) width = strlen(parameter->choice(i));
+  return width;
+}
+
+/* Of the column that was put last. */
+static void set_width(struct cursor *at, size_t width)
+{
+  if (at->table && at->naming && !at->failed) at->table->column[at->column - 1].width = width;
+}
+
 static void put(struct cursor *at, const char *name, const char *unit, enum gx_type type, struct gx_value value)
 {
   if (at->table && at->naming) at->failed |= gx_table_column(at->table, at->column, name, unit, type);
@@ -37,6 +53,16 @@ static void put(struct cursor *at, const char *name, const char *unit, enum gx_t
 static void put_text(struct cursor *at, const char *name, const char *text)
 {
   put(at, name, "", GX_TEXT, text && *text ? (struct gx_value){.type = GX_TEXT, .text = text} : (struct gx_value){0});
+}
+
+static size_t longest_status(void)
+{
+  size_t width = 0;
+  for (int status = GX_OK; status <= GX_FAILED; status++) {
+    const size_t length = strlen(gx_status_name((enum gx_status)status));
+    if (length > width) width = length;
+  }
+  return width;
 }
 
 static void put_real(struct cursor *at, const char *name, const char *unit, double real)
@@ -106,9 +132,13 @@ static void put_case(struct cursor *at, const struct gx_case *one, const struct 
   const struct gx_measured *measured = &result->measured;
   bool ran = status != GX_REFUSED, ok = status == GX_OK;
   put_text(at, "case", one->id);
-  for (int p = 0; p < GX_PARAMETERS; p++)
+  set_width(at, sizeof one->id - 1);
+  for (int p = 0; p < GX_PARAMETERS; p++) {
     put(at, gx_parameters[p].path, gx_parameters[p].unit, gx_parameters[p].type, one->value[p]);
+    if (at->naming) set_width(at, width_of(&gx_parameters[p]));
+  }
   put_text(at, "result.status", gx_status_name(status));
+  if (at->naming) set_width(at, longest_status());
   put_text(at, "result.reason", result->outcome.reason);
   put_count(at, "result.particle", ok || result->outcome.particle < 0 ? NAN : (double)result->outcome.particle);
   put_real(at, "result.dt", "s", ran ? result->dt : NAN);

@@ -90,7 +90,7 @@ static struct gx_value rounded(double number)
 static int copy_members(struct gx_table *table, size_t to, const struct ground *ground, size_t from)
 {
   const struct gx_column *column = &ground->table->column[from];
-  int failed = gx_table_column(table, to, column->name, column->unit, column->type);
+  int failed = gx_table_column_like(table, to, column);
   for (size_t i = 0; i < ground->front.members && !failed; i++)
     failed = gx_table_set(table, i, to, gx_table_get(ground->table, ground->front.member[i], from));
   return failed;

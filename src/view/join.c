@@ -43,7 +43,7 @@ struct gx_table *gx_join_tables(size_t studies, const struct gx_table *const *ta
       long to = gx_table_find(joined, column->name);
       if (to < 0) {
         to = (long)columns++;
-        failed = gx_table_column(joined, (size_t)to, column->name, column->unit, column->type);
+        failed = gx_table_column_like(joined, (size_t)to, column);
       }
       for (size_t r = 0; r < one->rows && !failed; r++)
         failed = gx_table_set(joined, at + r, (size_t)to, gx_table_get(one, r, c));

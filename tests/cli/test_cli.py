@@ -261,7 +261,7 @@ assert list(t["mesh.cells"][:4]) == [4] * 4
 assert t["result.dt"].attrs["unit"] == "s" and t["mesh.cells"].attrs["null"] == -2**63
 assert t["result.displacement.max.rms"].dtype == "float64"
 p = dict(f["provenance"].attrs)
-assert p["format"] == 2 and p["title"] == "small" and p["run_file"].startswith("title: small"), p
+assert p["format"] == 3 and p["title"] == "small" and p["run_file"].startswith("title: small"), p
 assert all(p[k] for k in ("version", "git_revision", "compiler", "flags", "gsl", "fftw", "hdf5", "yaml"))
 h = f["histories"][t["case"].asstr()[0]]
 assert len(h["time"]) > 2 and h["time"].attrs["unit"] == "s" and h["stress.rms"].attrs["unit"] == "Pa"

@@ -164,6 +164,7 @@ static int write_study(const struct fixture *f, const char *path, const struct g
   struct gx_hdf5_writer *writer = gx_hdf5_write_begin(path, table, table->columns, table->rows, stderr);
   int failed = writer ? 0 : -1;
   struct gx_table *part = gx_table_create(table->columns, 2);
+  for (size_t c = 0; c < table->columns; c++) gx_table_column_like(part, c, &table->column[c]);
   for (size_t r = 0; r < table->rows && !failed; r += 2) {
     size_t rows = table->rows - r < 2 ? table->rows - r : 2;
     for (size_t k = 0; k < rows; k++)
