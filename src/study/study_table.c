@@ -28,21 +28,6 @@ __attribute__((format(printf, 2, 3))) static const char *named(struct cursor *at
   return at->name;
 }
 
-/* Bytes of the longest of the texts that a parameter admits; 0: any. */
-static size_t width_of(const struct gx_parameter *parameter)
-{
-  size_t width = 0;
-  for (int i = 0; parameter->choice && parameter->choice(i); i++)
-    if (strlen(parameter->choice(i)) > width) width = strlen(parameter->choice(i));
-  return width;
-}
-
-/* Of the column that was put last. */
-static void set_width(struct cursor *at, size_t width)
-{
-  if (at->table && at->naming && !at->failed) at->table->column[at->column - 1].width = width;
-}
-
 static void put(struct cursor *at, const char *name, const char *unit, enum gx_type type, struct gx_value value)
 {
   if (at->table && at->naming) at->failed |= gx_table_column(at->table, at->column, name, unit, type);
@@ -53,16 +38,6 @@ static void put(struct cursor *at, const char *name, const char *unit, enum gx_t
 static void put_text(struct cursor *at, const char *name, const char *text)
 {
   put(at, name, "", GX_TEXT, text && *text ? (struct gx_value){.type = GX_TEXT, .text = text} : (struct gx_value){0});
-}
-
-static size_t longest_status(void)
-{
-  size_t width = 0;
-  for (int status = GX_OK; status <= GX_FAILED; status++) {
-    const size_t length = strlen(gx_status_name((enum gx_status)status));
-    if (length > width) width = length;
-  }
-  return width;
 }
 
 static void put_real(struct cursor *at, const char *name, const char *unit, double real)
@@ -132,13 +107,9 @@ static void put_case(struct cursor *at, const struct gx_case *one, const struct 
   const struct gx_measured *measured = &result->measured;
   bool ran = status != GX_REFUSED, ok = status == GX_OK;
   put_text(at, "case", one->id);
-  set_width(at, sizeof one->id - 1);
-  for (int p = 0; p < GX_PARAMETERS; p++) {
+  for (int p = 0; p < GX_PARAMETERS; p++)
     put(at, gx_parameters[p].path, gx_parameters[p].unit, gx_parameters[p].type, one->value[p]);
-    if (at->naming) set_width(at, width_of(&gx_parameters[p]));
-  }
   put_text(at, "result.status", gx_status_name(status));
-  if (at->naming) set_width(at, longest_status());
   put_text(at, "result.reason", result->outcome.reason);
   put_count(at, "result.particle", ok || result->outcome.particle < 0 ? NAN : (double)result->outcome.particle);
   put_real(at, "result.dt", "s", ran ? result->dt : NAN);
@@ -231,6 +202,22 @@ static struct gx_table *finish(struct cursor *at)
   return NULL;
 }
 
+static void widen(struct gx_table *table, const char *name, const char *text)
+{
+  struct gx_column *column = &table->column[gx_table_find(table, name)];
+  if (strlen(text) > column->width) column->width = strlen(text);
+}
+
+/* Of texts that are some of a few. */
+static void set_widths(struct gx_table *table)
+{
+  table->column[gx_table_find(table, "case")].width = GX_ID_LENGTH - 1;
+  for (int status = GX_OK; status <= GX_FAILED; status++) widen(table, "result.status", gx_status_name((enum gx_status)status));
+  for (int p = 0; p < GX_PARAMETERS; p++)
+    for (int i = 0; gx_parameters[p].choice && gx_parameters[p].choice(i); i++)
+      widen(table, gx_parameters[p].path, gx_parameters[p].choice(i));
+}
+
 struct gx_table *gx_study_table_begin(size_t rows, bool timing)
 {
   static const struct gx_case no_case;
@@ -240,6 +227,7 @@ struct gx_table *gx_study_table_begin(size_t rows, bool timing)
   at = (struct cursor){.table = gx_table_create(at.column, rows), .naming = true};
   if (!at.table) return NULL;
   put_case(&at, &no_case, &no_result, timing);
+  if (!at.failed) set_widths(at.table);
   return finish(&at);
 }
 
