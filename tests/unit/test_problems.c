@@ -338,6 +338,43 @@ static void disks_are_where_they_should_be(void **state)
   }
 }
 
+/* What run files may say of the ends, the first being the default, and how long a run is that says nothing: the disks meet after 1.6 s
+ * and are as far apart again after 3.2, the block has turned once, of the model problems as in steffen2010. */
+static void ends_are_those_of_the_problem(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *problem, *boundary[4];
+    double end;
+  } expected[] = {
+      {"bar-linear", {"fixed", "periodic"}, 0},
+      {"bar-neo-hookean", {"periodic", "fixed"}, 0},
+      {"axis-aligned", {"periodic", "fixed"}, 0},
+      {"generalized-vortex", {"free", "periodic", "fixed"}, 0},
+      {"free-flight", {"periodic", "free"}, 1},
+      {"spinning-block", {"free", "periodic"}, 0.125},
+      {"cantilever", {"clamped"}, 1},
+      {"colliding-disks", {"free", "fixed"}, 3.6},
+      {"jump-model", {NULL}, 0.4},
+      {"quadrature-model", {NULL}, 0.4},
+      {"oscillator", {NULL}, 0},
+  };
+  enum { COUNT = sizeof expected / sizeof *expected };
+  int problems = 0;
+  while (gx_problem_family[problems]) problems++;
+  assert_int_equal(problems, COUNT);
+  for (int i = 0; i < COUNT; i++) {
+    const struct gx_problem *problem = gx_problem_find(expected[i].problem);
+    unsigned boundaries = 0;
+    for (int k = 0; expected[i].boundary[k]; k++)
+      for (int b = 0; b < GX_BOUNDARIES; b++)
+        if (!strcmp(gx_problem_boundary[b], expected[i].boundary[k])) boundaries |= 1u << b;
+    CHECK(problem->boundaries == boundaries, "%s admits others", problem->name);
+    if (boundaries) assert_string_equal(gx_problem_boundary[problem->boundary], expected[i].boundary[0]);
+    CHECK(problem->end == expected[i].end, "%s ends at %g", problem->name, problem->end);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -351,6 +388,7 @@ int main(void)
       cmocka_unit_test(the_external_acceleration_is_a_quadrature_error),
       cmocka_unit_test(a_spinning_block_starts_as_it_says),
       cmocka_unit_test(disks_are_where_they_should_be),
+      cmocka_unit_test(ends_are_those_of_the_problem),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
