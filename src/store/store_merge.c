@@ -150,6 +150,14 @@ static int check_complete(const struct merge *merge)
   return missing ? -1 : 0;
 }
 
+static bool are_alike(const struct gx_table *a, const struct gx_table *b)
+{
+  bool alike = a->columns == b->columns;
+  for (size_t c = 0; c < a->columns && alike; c++)
+    alike = a->column[c].type == b->column[c].type && !strcmp(a->column[c].name, b->column[c].name);
+  return alike;
+}
+
 /* The row of a case that comes next in its shard. */
 static int fetch(struct merge *merge, struct shard *shard)
 {
@@ -160,8 +168,7 @@ static int fetch(struct merge *merge, struct shard *shard)
   if (merge->shards > FEW) gx_store_rows_pause(shard->rows);
   if (!shard->part) return -1;
   const struct shard *first = &merge->shard[0]; /* whose columns the table has */
-  const bool sound =
-      shard->part->rows && shard->part->columns > 2 && (!first->part || first->part->columns == shard->part->columns);
+  const bool sound = shard->part->rows && shard->part->columns > 2 && (!first->part || are_alike(first->part, shard->part));
   if (!sound) fprintf(merge->errors, "%s: its table is damaged\n", shard->directory);
   return sound ? 0 : -1;
 }

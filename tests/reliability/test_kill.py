@@ -420,6 +420,19 @@ class Shards(Case):
         self.shard(3)
         self.assertIn("letter", self.call("merge", *(self.place(i) for i in (1, 2, 3)), "-o", "mine", code=2).stderr)
 
+    @unittest.skipUnless(h5py, "needs h5py")
+    def test_a_column_of_another_type_is_seen(self):
+        self.shard(1, 2, 3)
+        path = self.dir / self.place(2) / "study.h5"
+        with h5py.File(path, "r+") as file:
+            rows = len(file["table/case"])
+            del file["table/method.basis"]
+            file["table"].create_dataset("method.basis", data=[0.5] * rows, dtype="<f8", track_times=False)
+        seal(path)
+        done = self.call("merge", *(self.place(i) for i in (1, 2, 3)), "-o", "out", code=2)
+        self.assertIn(f"{self.place(2)}: its table is damaged", done.stderr)
+        self.assertFalse((self.dir / "out" / "study.h5").exists())
+
     def test_which_shards_there_are(self):
         for text in ("0/3", "4/3", "1", "1/", "/3", "a/3", "1/3x", "-1/3", "1/0", "", " 1/3", "1/ 3", "99999999999999999999/3"):
             with self.subTest(text=text):
