@@ -154,7 +154,6 @@ static void weights_are_those_of_the_basis(void **state)
       }
 }
 
-/* 5 particles a cell: a last block that is not whole. */
 /* cpGIMP's, which F widens, have no weights when they are turned over, empty or wider than a cell. */
 static void domains_without_weights_are_told(void **state)
 {
@@ -177,6 +176,7 @@ static void domains_without_weights_are_told(void **state)
     }
 }
 
+/* 5 particles a cell: a last block that is not whole. */
 static void transfers_agree_on_every_clock(void **state)
 {
   (void)state;
