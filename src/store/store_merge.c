@@ -12,6 +12,7 @@
 
 #include "assembly.h"
 #include "journals.h"
+#include "seal.h"
 #include "store_rows.h"
 
 enum { MOST_SHARDS = 1000000 };                             /* as many as a study may have cases */
@@ -95,7 +96,7 @@ static int check_shard(struct merge *merge, const char *first, const char *direc
     return -1;
   }
   if (rows == rows_of(merge, provenance->shard - 1)) return 0;
-  fprintf(errors, "%s: its table is damaged\n", directory);
+  fprintf(errors, "%s: its table is damaged" GX_SEAL_REMEDY "\n", directory);
   return -1;
 }
 
@@ -169,7 +170,7 @@ static int fetch(struct merge *merge, struct shard *shard)
   if (!shard->part) return -1;
   const struct shard *first = &merge->shard[0]; /* whose columns the table has */
   const bool sound = shard->part->rows && shard->part->columns > 2 && (!first->part || are_alike(first->part, shard->part));
-  if (!sound) fprintf(merge->errors, "%s: its table is damaged\n", shard->directory);
+  if (!sound) fprintf(merge->errors, "%s: its table is damaged" GX_SEAL_REMEDY "\n", shard->directory);
   return sound ? 0 : -1;
 }
 
@@ -184,7 +185,7 @@ static int put_case(struct merge *merge, struct gx_assembly **assembly, const ch
   }
   const struct gx_value id = gx_table_get(shard->part, shard->next, 0);
   if (id.type != GX_TEXT) {
-    fprintf(merge->errors, "%s: its table is damaged\n", shard->directory);
+    fprintf(merge->errors, "%s: its table is damaged" GX_SEAL_REMEDY "\n", shard->directory);
     return -1;
   }
   struct gx_table *kept[GX_HDF5_KEPT] = {NULL};
