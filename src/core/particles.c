@@ -2,6 +2,7 @@
 /* Allocation of the particle store and the initial layouts of particles in cells. */
 #include <gridcross/particles.h>
 
+#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -194,6 +195,14 @@ void gx_particles_image(struct gx_particles *particles, struct gx_image *image)
   gx_image_reals(image, dim, particles->b, particles->n);
   gx_image_reals(image, dim * dim, particles->F, particles->n);
   gx_image_reals(image, dim * dim, particles->P, particles->n);
+}
+
+double gx_particles_volume(const struct gx_particles *particles)
+{
+  const double volume = particles->V0[0];
+  for (size_t p = 0; p < particles->n; p++)
+    if (fabs(particles->V0[p] - volume) > 64 * DBL_EPSILON * volume) return 0;
+  return volume;
 }
 
 double gx_particles_jacobian(const struct gx_particles *particles, size_t p)

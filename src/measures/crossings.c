@@ -6,16 +6,17 @@
 
 #include "../core/kernel.h"
 
+/* The count is as wide as a double, of which as many fit in a vector. */
 GX_CLONES static double moved_cell(size_t n, const double *restrict X, const double *restrict u, double cells,
                                    double *restrict cell)
 {
-  double moved = 0;
+  long moved = 0;
   for (size_t p = 0; p < n; p++) {
     double now = floor((X[p] + u[p]) * cells);
     moved += now != cell[p];
     cell[p] = now;
   }
-  return moved;
+  return (double)moved;
 }
 
 /* The same for cells that end at given edges. */

@@ -35,6 +35,7 @@ struct gx_measure {
   bool unsettled; /* the last sample left the particles where they were */
   double ahead;   /* s that velocities were behind then */
   double mass;    /* of all particles, kg */
+  double volume;  /* gx_particles_volume */
   /* at the last sample */
   struct vector_field v;           /* of the end of step, where that is not the particles'; before it is known, a */
   struct vector_field a, a_before; /* for the energy defect; a_before: one sample earlier */
@@ -84,6 +85,7 @@ struct gx_measure *gx_measure_create(struct gx_space *space, const struct gx_clo
   *measure =
       (struct gx_measure){.space = space, .clock = clock, .level = level, .cells = cells, .followed = -1, .dim = dim, .n = n};
   measure->mass = gx_vector_sum(n, space->particles->m);
+  measure->volume = gx_particles_volume(space->particles);
   if (space->surveyed > 0 && !cells) measure->kept = calloc(space->surveyed, sizeof(double)); /* else does without */
   if (take_rooms(measure)) {
     gx_measure_free(measure);
@@ -286,7 +288,7 @@ static void take_particles(struct gx_measure *measure, double t, struct gx_sampl
   gx_errors_norms(&state, sample->error);
   if (measure->level != GX_MEASURE_ALL) return;
   totals->momentum = gx_momentum_of(measure->space->particles, measure->v.component);
-  totals->elastic = gx_potential_of(measure->space);
+  totals->elastic = gx_potential_of(measure->space, measure->volume);
 }
 
 /* or of the space alone. */

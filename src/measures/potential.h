@@ -5,7 +5,7 @@
 
 #include <gridcross/space.h>
 
-/* The space's own or the strain energy, J. */
-double gx_potential_of(const struct gx_space *space);
+/* The space's own or the strain energy, J. volume: gx_particles_volume of the particles. */
+double gx_potential_of(const struct gx_space *space, double volume);
 
 #endif

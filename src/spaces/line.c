@@ -125,3 +125,8 @@ bool gx_line_advance(struct gx_mesh *mesh, double kick, double strain, double dr
   mesh->line->passes->advance(&mesh->line->fields, &step);
   return true;
 }
+
+void gx_line_acceleration(const struct gx_mesh *mesh, double *a)
+{
+  mesh->line->passes->gather(&mesh->line->fields, mesh->a[0], a);
+}

@@ -34,5 +34,7 @@ void gx_line_project(struct gx_mesh *mesh);
 void gx_line_accelerate(struct gx_mesh *mesh, bool project);
 /* Velocity, F and position of the particles by nodal v and a. Returns false where nothing was done: a combination that it lacks. */
 bool gx_line_advance(struct gx_mesh *mesh, double kick, double strain, double drift);
+/* Nodal acceleration at the particles. a: [n] */
+void gx_line_acceleration(const struct gx_mesh *mesh, double *a);
 
 #endif

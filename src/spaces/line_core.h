@@ -386,5 +386,41 @@ PASS static void advance(const struct gx_line_fields *fields, const struct gx_li
   if (f.support == 4) advance_support(&f, 4, &step);
 }
 
+/* Of the block at p, which writes its `count` particles alone. */
+GX_CORE void gather_block(const struct gx_line_fields *f, const int support, const double *field, size_t p, const bool within,
+                          size_t count, double *value)
+{
+  double all[GX_LINE_BLOCK];
+  for (size_t h = 0; h < GX_LINE_BLOCK; h += WIDTH) {
+    vec sum = {0}, S, nodal;
+    for (int s = 0; s < support; s++) {
+      LOAD(S, f->S + (size_t)s * f->n + p + h);
+      look_up(f->first + p + h, within, s, field, &nodal);
+      sum = s ? sum + S * nodal : S * nodal;
+    }
+    STORE(sum, count < GX_LINE_BLOCK ? all + h : value + p + h);
+  }
+  if (count < GX_LINE_BLOCK) memcpy(value + p, all, count * sizeof(double));
+}
+
+GX_CORE void gather_support(const struct gx_line_fields *f, const int support, const double *field, double *value)
+{
+  for (size_t p = 0; p < f->n; p += GX_LINE_BLOCK) {
+    const size_t count = f->n - p < GX_LINE_BLOCK ? f->n - p : GX_LINE_BLOCK;
+    if (is_within(f->first + p, support))
+      gather_block(f, support, field, p, true, count, value);
+    else
+      gather_block(f, support, field, p, false, count, value);
+  }
+}
+
+PASS static void gather(const struct gx_line_fields *fields, const double *field, double *value)
+{
+  const struct gx_line_fields f = *fields;
+  if (f.support == 2) gather_support(&f, 2, field, value);
+  if (f.support == 3) gather_support(&f, 3, field, value);
+  if (f.support == 4) gather_support(&f, 4, field, value);
+}
+
 #undef LOAD
 #undef STORE

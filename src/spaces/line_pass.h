@@ -51,6 +51,8 @@ struct gx_line_passes {
   /* v <- flip (v + kick S a) + (1 - flip) S v_i, F <- F + strain (D v_i) F, u <- u + drift S v_i; all of them, strain alone or what is
    * not strain: spans that are 0 choose. */
   void (*advance)(const struct gx_line_fields *fields, const struct gx_line_step *step);
+  /* value = S field_i. value: [n] */
+  void (*gather)(const struct gx_line_fields *fields, const double *field, double *value);
 };
 
 extern const struct gx_line_passes gx_line_narrow_passes, gx_line_wide_passes;

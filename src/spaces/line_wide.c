@@ -94,7 +94,7 @@ GX_CORE void look_up(const int *first, const bool within, int s, const double *f
 
 #include "line_core.h"
 
-const struct gx_line_passes gx_line_wide_passes = {weigh, scatter, divide, advance};
+const struct gx_line_passes gx_line_wide_passes = {weigh, scatter, divide, advance, gather};
 
 bool gx_line_wide_supported(void)
 {

@@ -429,7 +429,10 @@ double gx_mesh_kinetic(const struct gx_space *space)
 void gx_mesh_particle_acceleration(struct gx_space *space, double *const *a)
 {
   struct gx_mesh *mesh = (struct gx_mesh *)space;
-  gx_mesh_gather(mesh, mesh->a, a, NULL);
+  if (mesh->line)
+    gx_line_acceleration(mesh, a[0]);
+  else
+    gx_mesh_gather(mesh, mesh->a, a, NULL);
 }
 
 void gx_mesh_image(struct gx_space *space, struct gx_image *image)

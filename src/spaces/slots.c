@@ -124,15 +124,6 @@ static int pose(struct gx_slots *slots, const struct gx_particles *particles, co
   return 0;
 }
 
-/* That of all particles up to round-off, or 0. */
-static double volume_of(const struct gx_particles *particles)
-{
-  const double volume = particles->V0[0];
-  for (size_t p = 0; p < particles->n; p++)
-    if (fabs(particles->V0[p] - volume) > 64 * DBL_EPSILON * volume) return 0;
-  return volume;
-}
-
 /* A weight of a cell. */
 static double weight_of(const struct gx_slots *slots, const double *weights, int cell, int slot, int k)
 {
@@ -176,7 +167,7 @@ struct gx_slots *gx_slots_create(const struct gx_lattice_line *line, const struc
   copy_weights(slots, &V0_D, slots->V0_D);
   copy_weights(slots, &m_S, slots->m_S);
   put_in_slots(slots, particles->V0, slots->V0);
-  slots->volume = volume_of(particles);
+  slots->volume = gx_particles_volume(particles);
   fill_band(slots);
   return slots;
 }

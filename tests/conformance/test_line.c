@@ -8,12 +8,13 @@
 #include "spaces/mesh.h"
 
 enum transfers { GENERAL, NARROW, WIDE, KINDS };
+enum { VALUES = 5 };
 
 struct ending {
   struct gx_outcome outcome;
   double steps, crossings;
   size_t n;
-  double *value[4]; /* u, v, F, P */
+  double *value[VALUES]; /* u, v, F, P, and a where all steps were done */
 };
 
 static void use(struct gx_space *space, enum transfers transfers, const char *what)
@@ -54,10 +55,11 @@ static struct ending run(const struct gx_case *one, const size_t *order, double 
   end.outcome = rig.outcome;
   end.n = particles->n;
   const double *const from[] = {particles->u[0], particles->v[0], particles->F[0], particles->P[0]};
-  for (int i = 0; i < 4; i++) {
-    end.value[i] = malloc(end.n * sizeof(double));
-    memcpy(end.value[i], from[i], end.n * sizeof(double));
+  for (int i = 0; i < VALUES; i++) {
+    end.value[i] = calloc(end.n, sizeof(double));
+    if (i < 4) memcpy(end.value[i], from[i], end.n * sizeof(double));
   }
+  if (end.outcome.status == GX_OK) rig.simulation.kind->particle_acceleration(rig.simulation.space, &end.value[4]);
   free(cell);
   rig_free(&rig);
   return end;
@@ -75,7 +77,7 @@ static struct ending compare(const struct gx_case *one, const size_t *order, dou
           end[kind].outcome.particle, end[kind].steps, gx_status_name(end[0].outcome.status), end[0].outcome.particle,
           end[0].steps);
     CHECK(end[kind].crossings == end[0].crossings, "%s: %g crossings, not %g", what, end[kind].crossings, end[0].crossings);
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < VALUES; i++) {
       double scale = 0, apart = 0;
       for (size_t p = 0; p < end[0].n; p++) {
         scale = fmax(scale, fabs(end[0].value[i][p]));
@@ -87,7 +89,7 @@ static struct ending compare(const struct gx_case *one, const size_t *order, dou
     }
   }
   for (int kind = 0; kind < KINDS; kind++)
-    for (int i = 0; i < 4; i++) free(end[kind].value[i]);
+    for (int i = 0; i < VALUES; i++) free(end[kind].value[i]);
   return end[0];
 }
 
