@@ -7,8 +7,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "bench.h"
 #include "plain.h"
 #include "study/simulation_plan.h"
 
@@ -55,79 +55,57 @@ static const struct contest contests[] = {
      plain_moving_mesh_3d_start, plain_moving_mesh_3d, NULL, true},
 };
 
-static struct gx_value text(const char *value)
-{
-  return (struct gx_value){.type = GX_TEXT, .text = value};
-}
-
-static struct gx_value integer(long value)
-{
-  return (struct gx_value){.type = GX_INTEGER, .integer = value};
-}
-
-static struct gx_value real(double value)
-{
-  return (struct gx_value){.type = GX_REAL, .real = value};
-}
-
 static struct gx_case case_of(const struct contest *contest)
 {
   struct gx_case one = {0};
-  one.value[GX_PROBLEM_NAME] = text(contest->problem);
-  one.value[GX_PROBLEM_DIMENSION] = integer(contest->dim);
-  one.value[GX_PROBLEM_AMPLITUDE] = real(amplitude);
-  one.value[GX_PROBLEM_MODULUS] = real(modulus);
-  one.value[GX_PROBLEM_DENSITY] = real(density);
-  one.value[GX_PROBLEM_POISSON] = real(0);
-  one.value[GX_PROBLEM_BOUNDARY] = text(contest->periodic ? "periodic" : "fixed");
-  one.value[GX_MESH_CELLS] = integer(contest->cells);
-  one.value[GX_MESH_PARTICLES_PER_CELL] = integer(contest->per_cell);
-  one.value[GX_MESH_LAYOUT] = text("uniform");
-  one.value[GX_METHOD_SPACE] = text(contest->space);
-  one.value[GX_METHOD_BASIS] = text(contest->basis);
-  one.value[GX_METHOD_DEGREE] = integer(contest->degree);
-  one.value[GX_METHOD_MASS] = text("lumped");
-  one.value[GX_METHOD_TRANSFER] = text("flip");
-  one.value[GX_METHOD_CLOCK] = text(contest->clock);
-  one.value[GX_METHOD_POSITION] = text("nodal");
-  one.value[GX_METHOD_PROJECTION] = text(strcmp(contest->space, "standard") ? "once" : "each-step");
-  one.value[GX_METHOD_STRESS] = text("F");
-  one.value[GX_TIME_CFL] = real(cfl);
-  one.value[GX_TIME_PERIODS] = real(1);
-  one.value[GX_TIME_LANDING] = text("past");
+  one.value[GX_PROBLEM_NAME] = bench_text(contest->problem);
+  one.value[GX_PROBLEM_DIMENSION] = bench_integer(contest->dim);
+  one.value[GX_PROBLEM_AMPLITUDE] = bench_real(amplitude);
+  one.value[GX_PROBLEM_MODULUS] = bench_real(modulus);
+  one.value[GX_PROBLEM_DENSITY] = bench_real(density);
+  one.value[GX_PROBLEM_POISSON] = bench_real(0);
+  one.value[GX_PROBLEM_BOUNDARY] = bench_text(contest->periodic ? "periodic" : "fixed");
+  one.value[GX_MESH_CELLS] = bench_integer(contest->cells);
+  one.value[GX_MESH_PARTICLES_PER_CELL] = bench_integer(contest->per_cell);
+  one.value[GX_MESH_LAYOUT] = bench_text("uniform");
+  one.value[GX_METHOD_SPACE] = bench_text(contest->space);
+  one.value[GX_METHOD_BASIS] = bench_text(contest->basis);
+  one.value[GX_METHOD_DEGREE] = bench_integer(contest->degree);
+  one.value[GX_METHOD_MASS] = bench_text("lumped");
+  one.value[GX_METHOD_TRANSFER] = bench_text("flip");
+  one.value[GX_METHOD_CLOCK] = bench_text(contest->clock);
+  one.value[GX_METHOD_POSITION] = bench_text("nodal");
+  one.value[GX_METHOD_PROJECTION] = bench_text(strcmp(contest->space, "standard") ? "once" : "each-step");
+  one.value[GX_METHOD_STRESS] = bench_text("F");
+  one.value[GX_TIME_CFL] = bench_real(cfl);
+  one.value[GX_TIME_PERIODS] = bench_real(1);
+  one.value[GX_TIME_LANDING] = bench_text("past");
   return one;
 }
 
-static double seconds_now(void)
-{
-  struct timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now); /* what other programs take does not count */
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-/* Seconds for the steps, or -1 with a message. */
+/* ns for the steps, or -1 with a message. */
 static double time_gridcross(const struct contest *contest, struct gx_simulation *simulation, struct gx_outcome *outcome)
 {
   struct gx_stepper *stepper = gx_stepper_create(simulation->clock, simulation->space, NULL);
   if (!stepper) return -1;
-  double before = seconds_now();
+  double before = bench_now(CLOCK_THREAD_CPUTIME_ID);
   for (long step = 0; step < contest->steps && outcome->status == GX_OK; step++)
     gx_stepper_step(stepper, (double)step * simulation->dt, simulation->dt);
-  double seconds = seconds_now() - before;
+  double spent = bench_now(CLOCK_THREAD_CPUTIME_ID) - before;
   gx_stepper_free(stepper);
   if (outcome->status != GX_OK) return -1;
   if (simulation->kind->settle) simulation->kind->settle(simulation->space);
-  return seconds;
+  return spent;
 }
 
 static double time_plain(const struct contest *contest, struct plain *plain)
 {
   if (contest->start) contest->start(plain);
-  double before = seconds_now();
+  double before = bench_now(CLOCK_THREAD_CPUTIME_ID);
   for (long step = 0; step < contest->steps; step++) contest->step(plain);
-  double seconds = seconds_now() - before;
+  double spent = bench_now(CLOCK_THREAD_CPUTIME_ID) - before;
   if (contest->sample) contest->sample(plain);
-  return seconds;
+  return spent;
 }
 
 /* Largest difference of displacements over the amplitude; infinite when one is NaN. */
@@ -150,7 +128,7 @@ static enum gx_status build(const struct contest *contest, struct gx_simulation 
   return gx_simulation_open(simulation, outcome);
 }
 
-/* One repetition: seconds of both and how far apart they end. Returns 0, or -1 with a message. */
+/* One repetition: ns of both and how far apart they end. Returns 0, or -1 with a message. */
 static int compete(const struct contest *contest, double *ours, double *theirs, double *apart)
 {
   struct gx_outcome outcome = {.status = GX_OK, .particle = -1};
@@ -188,7 +166,7 @@ static bool report(const struct contest *contest, int repetitions)
   qsort(ours, (size_t)repetitions, sizeof *ours, ascending);
   qsort(theirs, (size_t)repetitions, sizeof *theirs, ascending);
   double particles = pow(contest->cells * contest->per_cell, contest->dim);
-  double scale = 1e9 / (particles * (double)contest->steps);
+  double scale = 1 / (particles * (double)contest->steps);
   int middle = repetitions / 2;
   bool agree = worst <= tolerance;
   printf("%-26s %7.2f %7.2f %6.2f   %7.2f %7.2f %6.2f   %.1e%s\n", contest->name, scale * theirs[0], scale * ours[0],

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
+#include "bench.h"
 #include "study/simulation_plan.h"
 
 static const int cells_of[] = {0, 64, 32, 12}, per_cell_of[] = {0, 4, 2, 2}, steps_of[] = {0, 2000, 400, 200};
@@ -15,44 +15,27 @@ static const char *const spaces[] = {"standard", "moving-mesh"}, *const bases[] 
 
 enum { LEVELS = sizeof levels / sizeof *levels };
 
-static double now(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e9 * (double)t.tv_sec + (double)t.tv_nsec;
-}
-
-static struct gx_value text(const char *value)
-{
-  return (struct gx_value){.type = GX_TEXT, .text = value};
-}
-
-static struct gx_value integer(long value)
-{
-  return (struct gx_value){.type = GX_INTEGER, .integer = value};
-}
-
 static struct gx_case case_of(const char *space, const char *basis, int dim, const char *level, int steps)
 {
   struct gx_case one = {0};
-  one.value[GX_PROBLEM_NAME] = text("axis-aligned");
-  one.value[GX_PROBLEM_DIMENSION] = integer(dim);
-  one.value[GX_MESH_CELLS] = integer(cells_of[dim]);
-  one.value[GX_MESH_PARTICLES_PER_CELL] = integer(per_cell_of[dim]);
-  one.value[GX_METHOD_SPACE] = text(space);
-  one.value[GX_METHOD_BASIS] = text(basis);
-  one.value[GX_TIME_CFL] = (struct gx_value){.type = GX_REAL, .real = 0.1};
-  one.value[GX_TIME_STEPS] = integer(steps);
-  one.value[GX_OUTPUT_MEASURES] = text(level);
+  one.value[GX_PROBLEM_NAME] = bench_text("axis-aligned");
+  one.value[GX_PROBLEM_DIMENSION] = bench_integer(dim);
+  one.value[GX_MESH_CELLS] = bench_integer(cells_of[dim]);
+  one.value[GX_MESH_PARTICLES_PER_CELL] = bench_integer(per_cell_of[dim]);
+  one.value[GX_METHOD_SPACE] = bench_text(space);
+  one.value[GX_METHOD_BASIS] = bench_text(basis);
+  one.value[GX_TIME_CFL] = bench_real(0.1);
+  one.value[GX_TIME_STEPS] = bench_integer(steps);
+  one.value[GX_OUTPUT_MEASURES] = bench_text(level);
   gx_parameter_resolve(one.value);
   return one;
 }
 
 static double run_case(const struct gx_case *one)
 {
-  const double before = now();
+  const double before = bench_now(CLOCK_THREAD_CPUTIME_ID);
   struct gx_result result = gx_case_run(one);
-  const double spent = now() - before;
+  const double spent = bench_now(CLOCK_THREAD_CPUTIME_ID) - before;
   if (result.outcome.status != GX_OK) exit(1);
   gx_case_free(&result);
   return spent;
@@ -68,10 +51,10 @@ static double run_steps(const struct gx_case *one, int steps)
       !(stepper = gx_stepper_create(simulation.clock, simulation.space, NULL)))
     exit(1);
   if (gx_stepper_step(stepper, 0, simulation.dt)) exit(1); /* touches all memory */
-  const double before = now();
+  const double before = bench_now(CLOCK_THREAD_CPUTIME_ID);
   for (int k = 1; k <= steps; k++)
     if (gx_stepper_step(stepper, k * simulation.dt, simulation.dt)) exit(1);
-  const double spent = now() - before;
+  const double spent = bench_now(CLOCK_THREAD_CPUTIME_ID) - before;
   gx_stepper_free(stepper);
   gx_simulation_free(&simulation);
   return spent;

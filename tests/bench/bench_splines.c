@@ -4,31 +4,14 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include <gsl/gsl_bspline.h>
 #include <gsl/gsl_errno.h>
 
+#include "bench.h"
 #include "study/simulation_plan.h"
 
 enum { REPETITIONS = 15, BOX_REPETITIONS = 5, CELLS = 40, PER_CELL = 2 };
-
-static double now(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static struct gx_value text(const char *value)
-{
-  return (struct gx_value){.type = GX_TEXT, .text = value};
-}
-
-static struct gx_value integer(long value)
-{
-  return (struct gx_value){.type = GX_INTEGER, .integer = value};
-}
 
 /* One run of so many steps; ns per particle-step. */
 static double time_of(struct gx_case *one, int steps)
@@ -40,10 +23,10 @@ static double time_of(struct gx_case *one, int steps)
   if (gx_simulation_plan(&simulation, one, &outcome) || gx_simulation_build(&simulation, &outcome) ||
       !(stepper = gx_stepper_create(simulation.clock, simulation.space, NULL)))
     exit(1);
-  double before = now();
+  double before = bench_now(CLOCK_THREAD_CPUTIME_ID);
   for (int k = 0; k < steps; k++)
     if (gx_stepper_step(stepper, k * simulation.dt, simulation.dt)) exit(1);
-  double ns = 1e9 * (now() - before) / ((double)steps * (double)simulation.particles->n);
+  double ns = (bench_now(CLOCK_THREAD_CPUTIME_ID) - before) / ((double)steps * (double)simulation.particles->n);
   gx_stepper_free(stepper);
   gx_simulation_free(&simulation);
   return ns;
@@ -52,15 +35,15 @@ static double time_of(struct gx_case *one, int steps)
 static double run(const char *space, const char *frame, const char *boundary, int degree)
 {
   struct gx_case one = {0};
-  one.value[GX_PROBLEM_NAME] = text("bar-linear");
-  one.value[GX_PROBLEM_AMPLITUDE] = (struct gx_value){.type = GX_REAL, .real = 0.005};
-  one.value[GX_MESH_CELLS] = integer(CELLS);
-  one.value[GX_MESH_PARTICLES_PER_CELL] = integer(PER_CELL);
-  one.value[GX_PROBLEM_BOUNDARY] = text(boundary);
-  one.value[GX_METHOD_SPACE] = text(space);
-  one.value[GX_METHOD_FRAME] = text(frame);
-  one.value[GX_METHOD_DEGREE] = integer(degree);
-  one.value[GX_TIME_CFL] = (struct gx_value){.type = GX_REAL, .real = 0.05};
+  one.value[GX_PROBLEM_NAME] = bench_text("bar-linear");
+  one.value[GX_PROBLEM_AMPLITUDE] = bench_real(0.005);
+  one.value[GX_MESH_CELLS] = bench_integer(CELLS);
+  one.value[GX_MESH_PARTICLES_PER_CELL] = bench_integer(PER_CELL);
+  one.value[GX_PROBLEM_BOUNDARY] = bench_text(boundary);
+  one.value[GX_METHOD_SPACE] = bench_text(space);
+  one.value[GX_METHOD_FRAME] = bench_text(frame);
+  one.value[GX_METHOD_DEGREE] = bench_integer(degree);
+  one.value[GX_TIME_CFL] = bench_real(0.05);
   return time_of(&one, 400);
 }
 
@@ -68,14 +51,14 @@ static double run(const char *space, const char *frame, const char *boundary, in
 static double box(const char *space, const char *boundary, int dim, int degree)
 {
   struct gx_case one = {0};
-  one.value[GX_PROBLEM_NAME] = text("axis-aligned");
-  one.value[GX_PROBLEM_DIMENSION] = integer(dim);
-  one.value[GX_MESH_CELLS] = integer(dim == 2 ? 128 : 24);
-  one.value[GX_MESH_PARTICLES_PER_CELL] = integer(PER_CELL);
-  one.value[GX_PROBLEM_BOUNDARY] = text(boundary);
-  one.value[GX_METHOD_SPACE] = text(space);
-  one.value[GX_METHOD_DEGREE] = integer(degree);
-  one.value[GX_TIME_CFL] = (struct gx_value){.type = GX_REAL, .real = 0.05};
+  one.value[GX_PROBLEM_NAME] = bench_text("axis-aligned");
+  one.value[GX_PROBLEM_DIMENSION] = bench_integer(dim);
+  one.value[GX_MESH_CELLS] = bench_integer(dim == 2 ? 128 : 24);
+  one.value[GX_MESH_PARTICLES_PER_CELL] = bench_integer(PER_CELL);
+  one.value[GX_PROBLEM_BOUNDARY] = bench_text(boundary);
+  one.value[GX_METHOD_SPACE] = bench_text(space);
+  one.value[GX_METHOD_DEGREE] = bench_integer(degree);
+  one.value[GX_TIME_CFL] = bench_real(0.05);
   return time_of(&one, 4);
 }
 
@@ -104,9 +87,9 @@ static double gsl_point(int degree)
   size_t first, last;
   if (!workspace || !values) exit(1);
   gsl_bspline_knots_uniform(0, 1, workspace);
-  double before = now();
+  double before = bench_now(CLOCK_THREAD_CPUTIME_ID);
   for (int k = 0; k < POINTS; k++) gsl_bspline_deriv_eval_nonzero((k + 0.5) / POINTS, 1, values, &first, &last, workspace);
-  double ns = 1e9 * (now() - before) / POINTS;
+  double ns = (bench_now(CLOCK_THREAD_CPUTIME_ID) - before) / POINTS;
   gsl_matrix_free(values);
   gsl_bspline_free(workspace);
   return ns;

@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
+#include "bench.h"
 #include "core/team.h"
 #include "study/simulation_plan.h"
 
@@ -17,22 +17,15 @@ enum { CELLS = 32, CELLS_FOR_MEMORY = 24, PER_CELL = 2, STEPS = 8, MOST_THREADS 
 
 static const char *const spaces[] = {"standard", "moving-mesh"};
 
-static double now(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static struct gx_case case_of(const char *space, int cells)
 {
   struct gx_case one = {0};
-  one.value[GX_PROBLEM_NAME] = (struct gx_value){.type = GX_TEXT, .text = "axis-aligned"};
-  one.value[GX_PROBLEM_DIMENSION] = (struct gx_value){.type = GX_INTEGER, .integer = 3};
-  one.value[GX_MESH_CELLS] = (struct gx_value){.type = GX_INTEGER, .integer = cells};
-  one.value[GX_MESH_PARTICLES_PER_CELL] = (struct gx_value){.type = GX_INTEGER, .integer = PER_CELL};
-  one.value[GX_METHOD_SPACE] = (struct gx_value){.type = GX_TEXT, .text = space};
-  one.value[GX_METHOD_DEGREE] = (struct gx_value){.type = GX_INTEGER, .integer = 2};
+  one.value[GX_PROBLEM_NAME] = bench_text("axis-aligned");
+  one.value[GX_PROBLEM_DIMENSION] = bench_integer(3);
+  one.value[GX_MESH_CELLS] = bench_integer(cells);
+  one.value[GX_MESH_PARTICLES_PER_CELL] = bench_integer(PER_CELL);
+  one.value[GX_METHOD_SPACE] = bench_text(space);
+  one.value[GX_METHOD_DEGREE] = bench_integer(2);
   return one;
 }
 
@@ -49,10 +42,10 @@ static double run(const char *space, int cells, struct gx_team *team)
   if (gx_simulation_build(&simulation, &outcome) || !(stepper = gx_stepper_create(simulation.clock, simulation.space, NULL)))
     exit(1);
   if (gx_stepper_step(stepper, 0, simulation.dt)) exit(1); /* touches all memory */
-  double before = now();
+  double before = bench_now(CLOCK_MONOTONIC);
   for (int k = 1; k <= STEPS; k++)
     if (gx_stepper_step(stepper, k * simulation.dt, simulation.dt)) exit(1);
-  double ns = 1e9 * (now() - before) / ((double)STEPS * (double)simulation.particles->n);
+  double ns = (bench_now(CLOCK_MONOTONIC) - before) / ((double)STEPS * (double)simulation.particles->n);
   gx_stepper_free(stepper);
   gx_simulation_free(&simulation);
   return ns;
@@ -62,8 +55,8 @@ static double run(const char *space, int cells, struct gx_team *team)
 static void run_case(const char *space, const char *measures, int cells)
 {
   struct gx_case one = case_of(space, cells);
-  one.value[GX_TIME_STEPS] = (struct gx_value){.type = GX_INTEGER, .integer = STEPS};
-  one.value[GX_OUTPUT_MEASURES] = (struct gx_value){.type = GX_TEXT, .text = measures};
+  one.value[GX_TIME_STEPS] = bench_integer(STEPS);
+  one.value[GX_OUTPUT_MEASURES] = bench_text(measures);
   gx_parameter_resolve(one.value);
   struct gx_result result = gx_case_run(&one);
   if (result.outcome.status != GX_OK) exit(1);
