@@ -10,6 +10,9 @@ import tempfile
 import time
 import unittest
 
+sys.dont_write_bytecode = True  # beside the sources
+from runs import Runs
+
 PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve()
 # one case of many more steps than are taken until it is looked at; its measures and files are those of a short one
 STUDY = """problem: {name: bar-neo-hookean}
@@ -18,35 +21,30 @@ method: {space: moving-mesh}
 time: {cfl: 0.0005}
 output: {checkpoint: 32000, histories: 5000, snapshots: 20000, spectra: 50000, frequency: 1000, probe: 0.3}
 """
-IGNORED = ("run.json", "timing.csv")
 
 
-class Checkpoint(unittest.TestCase):
+class Checkpoint(Runs):
+    program = PROGRAM
+
     @classmethod
     def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
-        cls.top = pathlib.Path(cls.temporary.name)
-        (cls.top / "study.yaml").write_text(STUDY)
-        (cls.top / "other.yaml").write_text(STUDY.replace("0.3}", "0.6}"))
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.dir = pathlib.Path(temporary.name)
+        (cls.dir / "study.yaml").write_text(STUDY)
+        (cls.dir / "other.yaml").write_text(STUDY.replace("0.3}", "0.6}"))
         cls.call(cls, "run", "study.yaml", "-o", "whole", "-q")
-        cls.whole = cls.bytes_of(cls, "whole")
+        cls.whole = cls.files_of(cls, "whole")
         cls.kill_behind(cls, "study.yaml", "cut")
 
-    @classmethod
-    def tearDownClass(cls):
-        cls.temporary.cleanup()
-
-    def call(self, *args, code=0):
-        done = subprocess.run([PROGRAM, *args], cwd=self.top, capture_output=True, text=True, timeout=500)
-        if done.returncode != code:
-            raise AssertionError(f"{args}: {done.returncode} {done.stdout[-300:]}\n{done.stderr[-800:]}")
-        return done
+    def setUp(self):
+        """All in one place."""
 
     def kill_behind(self, study, directory, *args, by=signal.SIGKILL):
         """Ends a run as soon as there is a checkpoint that was not there. Returns what it said."""
-        checkpoint = lambda: {(p, p.stat().st_mtime_ns) for p in (self.top / directory).glob(".case-*.checkpoint")}
+        checkpoint = lambda: {(p, p.stat().st_mtime_ns) for p in (self.dir / directory).glob(".case-*.checkpoint")}
         old = checkpoint()
-        process = subprocess.Popen([PROGRAM, "run", study, "-o", directory, *args], cwd=self.top, stdout=subprocess.PIPE,
+        process = subprocess.Popen([PROGRAM, "run", study, "-o", directory, *args], cwd=self.dir, stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE, text=True)
         while process.poll() is None and not checkpoint() - old:
             time.sleep(0.001)
@@ -56,18 +54,14 @@ class Checkpoint(unittest.TestCase):
             raise unittest.SkipTest("the case was done before it could be killed")
         return err
 
-    def bytes_of(self, directory):
-        files = sorted(p for p in (self.top / directory).iterdir() if p.name not in IGNORED)
-        return {p.name: p.read_bytes() for p in files}
-
     def copy(self, name):
-        shutil.copytree(self.top / "cut", self.top / name)
-        (path,) = (self.top / name).glob(".case-*.checkpoint")
+        shutil.copytree(self.dir / "cut", self.dir / name)
+        (path,) = (self.dir / name).glob(".case-*.checkpoint")
         return path
 
     def resume_ends_whole(self, directory):
         done = self.call("run", "study.yaml", "-o", directory, "--resume")
-        now = self.bytes_of(directory)
+        now = self.files_of(directory)
         self.assertEqual(sorted(now), sorted(self.whole))
         for name, content in now.items():
             self.assertTrue(content == self.whole[name], f"{name} differs")
@@ -93,18 +87,18 @@ class Checkpoint(unittest.TestCase):
         said = self.call("run", "study.yaml", "-o", "first", "--shard", "1/2", "--resume", *other).stderr
         self.assertIn("goes on from step", said)
         self.call("merge", "first", "second", "-o", "merged")
-        self.assertTrue(self.bytes_of("merged") == self.bytes_of("undivided"))
+        self.assertTrue(self.files_of("merged") == self.files_of("undivided"))
 
     def row_of(self, directory):
-        with (self.top / directory / "table.csv").open() as file:
+        with (self.dir / directory / "table.csv").open() as file:
             (row,) = csv.DictReader(file)
         return {name: value for name, value in row.items() if name not in ("case", "output.checkpoint")}
 
     def test_an_interrupt_keeps_the_steps_that_are_done(self):
         never = ("run", "study.yaml", "-o", "soon", "--set", "output.checkpoint=1000000000")
         patience = 0.02
-        while not list((self.top / "soon").glob(".case-*.checkpoint")):
-            process = subprocess.Popen([PROGRAM, *never], cwd=self.top, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        while not list((self.dir / "soon").glob(".case-*.checkpoint")):
+            process = subprocess.Popen([PROGRAM, *never], cwd=self.dir, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
             time.sleep(patience)
             process.send_signal(signal.SIGINT)
             process.communicate()
@@ -117,9 +111,9 @@ class Checkpoint(unittest.TestCase):
 
     def test_a_run_that_does_not_resume_is_refused(self):
         path = self.copy("kept")
-        before = self.bytes_of("kept")
+        before = self.files_of("kept")
         self.assertIn("--resume", self.call("run", "study.yaml", "-o", "kept", code=2).stderr)
-        kept = self.bytes_of("kept")
+        kept = self.files_of("kept")
         self.assertEqual(kept[path.name], before[path.name])
         path.unlink()
         self.assertNotIn("goes on", self.kill_behind("study.yaml", "kept"))
@@ -135,7 +129,7 @@ class Checkpoint(unittest.TestCase):
     def test_what_is_left_half_written_is_not_read(self):
         path = self.copy("torn")
         path.with_name(path.name + ".partial").write_bytes(path.read_bytes()[:1000])
-        (log,) = (self.top / "torn").glob(".case-*.snapshots.partial")
+        (log,) = (self.dir / "torn").glob(".case-*.snapshots.partial")
         with log.open("ab") as file:  # what a run has written since
             file.write(b"x" * 12345)
         self.assertIn("goes on from step", self.resume_ends_whole("torn"))
@@ -156,7 +150,7 @@ class Checkpoint(unittest.TestCase):
     def test_a_foreign_checkpoint_is_not_used(self):
         path = self.copy("foreign")
         self.kill_behind("other.yaml", "others")
-        (other,) = (self.top / "others").glob(".case-*.checkpoint")
+        (other,) = (self.dir / "others").glob(".case-*.checkpoint")
         shutil.copy(other, path)
         said = self.kill_behind("study.yaml", "foreign", "--resume")
         self.assertIn(f"{path.name}: is of another study", said)
@@ -165,7 +159,7 @@ class Checkpoint(unittest.TestCase):
         for name, damage in (("short", lambda b: b[:100]), ("flipped", lambda b: b"\1" + b[1:])):
             with self.subTest(damage=name):
                 path = self.copy(f"unseen-{name}")
-                (log,) = (self.top / f"unseen-{name}").glob(".case-*.snapshots.partial")
+                (log,) = (self.dir / f"unseen-{name}").glob(".case-*.snapshots.partial")
                 log.write_bytes(damage(log.read_bytes()))
                 said = self.kill_behind("study.yaml", f"unseen-{name}", "--resume")
                 self.assertIn(f"{path.name}: has lost its snapshots: the case begins anew", said)

@@ -9,8 +9,10 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import unittest
+
+sys.dont_write_bytecode = True  # beside the sources
+from runs import UNLIKE, Runs
 
 ALL = "--all" in sys.argv and not sys.argv.remove("--all")
 PROGRAM, FAULTS = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(2))
@@ -21,17 +23,16 @@ method: {space: moving-mesh}
 time: {cfl: 0.2, periods: 0.5}
 output: {histories: 8, spectra: 16, snapshots: 20, checkpoint: 30}
 """
-UNLIKE = ("run.json", "timing.csv")  # between equal runs
 KILLED = ("kill", "torn")
 SAID = {"full": "No space left on device", "once": "Input/output error"}
 
 
-class Faults(unittest.TestCase):
+class Faults(Runs):
+    program = PROGRAM
+    files = {"study.yaml": STUDY}
+
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.dir = pathlib.Path(temporary.name)
-        (self.dir / "study.yaml").write_text(STUDY)
+        super().setUp()
         self.faults = shutil.copy(FAULTS, self.dir)  # a blank in its path would end it
 
     def run_program(self, *args, **faults):
@@ -42,18 +43,13 @@ class Faults(unittest.TestCase):
             environment.update((f"FAULTS_{name.upper()}", str(value)) for name, value in faults.items())
         return subprocess.run([PROGRAM, *args], cwd=self.dir, env=environment, capture_output=True, text=True, timeout=300)
 
-    def call(self, *args):
-        done = self.run_program(*args)
-        self.assertEqual(done.returncode, 0, f"{args}: {done.stderr}")
-        return done
-
-    def bytes_of(self, directory):
+    def seen_in(self, directory):
         """What is seen in a directory; not: hidden files."""
         paths = (self.dir / directory).iterdir() if (self.dir / directory).is_dir() else []
         return {p.name: p.read_bytes() for p in paths if not p.name.startswith(".")}
 
     def alike(self, directory):
-        return {name: content for name, content in self.bytes_of(directory).items() if name not in UNLIKE}
+        return {name: content for name, content in self.seen_in(directory).items() if name not in UNLIKE}
 
     def chosen(self, *args):
         """The numbers of calls that are to fail."""
@@ -122,7 +118,7 @@ class Faults(unittest.TestCase):
         self.call("run", "study.yaml", "-o", "whole", "-q")
         for i in "12":
             self.call("run", "study.yaml", "--shard", f"{i}/2", "-o", f"part{i}", "-q")
-        whole, parts = self.alike("whole"), [self.bytes_of(f"part{i}") for i in "12"]
+        whole, parts = self.alike("whole"), [self.seen_in(f"part{i}") for i in "12"]
         args = ("merge", "part1", "part2", "-o", "d")
         calls = self.chosen(*args)
 
@@ -132,7 +128,7 @@ class Faults(unittest.TestCase):
         def after(how):
             for name, content in self.alike("d").items():
                 self.assertEqual(content, whole[name], name)
-            self.assertEqual([self.bytes_of(f"part{i}") for i in "12"], parts)
+            self.assertEqual([self.seen_in(f"part{i}") for i in "12"], parts)
             self.call(*args)
             self.assertTrue(self.alike("d") == whole)
             self.assertEqual([p.name for p in (self.dir / "d").glob(".*")], [])
@@ -143,12 +139,12 @@ class Faults(unittest.TestCase):
         """A command that writes a file, over what it wrote of another study."""
         self.call("run", "study.yaml", "-o", "whole", "-q")
         self.call("run", "study.yaml", "-o", "other", "-q", "--set", "mesh.cells=[8,9]")
-        study = self.bytes_of("whole")
+        study = self.seen_in("whole")
         (self.dir / "place").mkdir()
         self.call(command, "other", "-o", f"place/{name}")
-        older = self.bytes_of("place")
+        older = self.seen_in("place")
         self.call(command, "whole", "-o", f"place/{name}")
-        whole = self.bytes_of("place")
+        whole = self.seen_in("place")
         self.assertTrue(sorted(older) == sorted(whole) and older != whole)
         args = (command, "whole", "-o", f"place/{name}")
 
@@ -159,18 +155,18 @@ class Faults(unittest.TestCase):
                 (self.dir / "place" / each).write_bytes(content)
 
         def after(how):
-            for each, content in self.bytes_of("place").items():
+            for each, content in self.seen_in("place").items():
                 if not each.endswith(".partial"):
                     self.assertTrue(content in (older[each], whole[each]), each)
                 else:
                     self.assertIn(how, KILLED)
             self.call(*args)
-            self.assertTrue({each: self.bytes_of("place")[each] for each in whole} == whole)
-            self.assertEqual(self.bytes_of("whole"), study)
+            self.assertTrue({each: self.seen_in("place")[each] for each in whole} == whole)
+            self.assertEqual(self.seen_in("whole"), study)
 
         begin()
         calls = self.chosen(*args)
-        self.fail_at(calls, begin, args, lambda: self.bytes_of("place") == whole, after)
+        self.fail_at(calls, begin, args, lambda: self.seen_in("place") == whole, after)
 
     def test_report(self):
         self.check_file("report", "page.html")

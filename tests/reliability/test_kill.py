@@ -11,12 +11,12 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
 sys.dont_write_bytecode = True  # beside the sources
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+from runs import Runs
 from seal import seal
 
 try:
@@ -49,50 +49,17 @@ output: {measures: final}
 TWO_SHORT = LONG.replace("steps: 1000000000000", "steps: [10, 1000000000000]").replace("[4, 5, 200]", "[4, 200]")
 
 
-class Case(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.dir = pathlib.Path(temporary.name)
-        (self.dir / "study.yaml").write_text(STUDY)
-
-    def call(self, *args, code=0, **more):
-        done = subprocess.run([PROGRAM, *map(str, args)], cwd=self.dir, capture_output=True, timeout=600, text=True, **more)
-        self.assertEqual(done.returncode, code, f"{args}: {done.stdout[-300:]}\n{done.stderr[-800:]}")
-        return done
-
-    def start(self, *args):
-        process = subprocess.Popen([PROGRAM, *map(str, args)], cwd=self.dir, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        self.addCleanup(self.stop, process)
-        return process
-
-    def stop(self, process):
-        """A test that fails leaves none running."""
-        if process.poll() is None:
-            process.kill()
-            process.communicate()
+class Case(Runs):
+    program = PROGRAM
+    files = {"study.yaml": STUDY}
 
     def names(self, directory):
         return sorted(p.name for p in (self.dir / directory).iterdir())
-
-    def bytes_of(self, directory):
-        """Of a finished study, by name; what differs from run to run is left out."""
-        names = self.names(directory)
-        self.assertTrue(self.is_finished(names), names)
-        return {name: (self.dir / directory / name).read_bytes() for name in names if name not in ("run.json", "timing.csv")}
-
-    def is_finished(self, names):
-        return not any(name.startswith(".") for name in names) and {"run.json", "study.h5", "table.csv", "timing.csv"} <= set(names)
 
     def undisturbed(self, *args):
         start = time.monotonic()
         self.call("run", "study.yaml", "-o", "whole", "-q", *args)
         return self.bytes_of("whole"), time.monotonic() - start
-
-    def records(self, directory):
-        """Whole records of the journals, by the number that each begins with."""
-        magic = (0x65736163BEEFCAFE).to_bytes(8, sys.byteorder)
-        return sum(p.read_bytes().count(magic) for p in (self.dir / directory).glob(".journal-*.partial"))
 
 
 class Kill(Case):
@@ -172,7 +139,7 @@ class Kill(Case):
         return "while assembling" if before == CASES else "under way", before
 
     def bytes_are(self, whole):
-        return self.is_finished(self.names("killed")) and self.bytes_of("killed") == whole
+        return self.is_finished("killed") and self.bytes_of("killed") == whole
 
     def resume(self):
         self.call("run", "study.yaml", "-o", "killed", "-q", "-j", "2", "--resume")
@@ -191,7 +158,7 @@ class Interrupt(Case):
         time.sleep(0.1)
         start = time.monotonic()
         process.send_signal(number)
-        err = process.communicate(timeout=600)[1].decode()
+        err = process.communicate(timeout=600)[1]
         return process.returncode, err, time.monotonic() - start
 
     def test_signals_end_a_run_soon_and_say_how_to_go_on(self):
@@ -212,7 +179,7 @@ class Interrupt(Case):
         while not (self.dir / "cut").exists() or self.records("cut") < 5:
             time.sleep(0.005)
         process.send_signal(signal.SIGINT)
-        err = process.communicate()[1].decode()
+        err = process.communicate()[1]
         if process.returncode == 0:
             self.skipTest("was done before")
         done = int(re.search(rf"(\d+) of {CASES} cases are done and kept", err)[1])
@@ -227,7 +194,7 @@ class Interrupt(Case):
             time.sleep(0.01)
         time.sleep(0.1)
         process.send_signal(signal.SIGINT)
-        self.assertIn(b"0 of 3 cases", process.communicate()[1])
+        self.assertIn("0 of 3 cases", process.communicate()[1])
         self.assertEqual(self.names("none"), [])
 
 
@@ -319,7 +286,7 @@ class Places(Case):
             self.assertIsNone(process.poll())
             time.sleep(0.002)
         shutil.rmtree(self.dir / "gone")
-        err = process.communicate(timeout=600)[1].decode()
+        err = process.communicate(timeout=600)[1]
         self.assertEqual(process.returncode, 1)
         self.assertIn("gone", err)
         self.assertIn("No such file or directory", err)

@@ -6,9 +6,11 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
+
+sys.dont_write_bytecode = True  # beside the sources
+from runs import Runs
 
 PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 STUDY = """title: places
@@ -24,19 +26,14 @@ COMMANDS = [(["run", "study.yaml", "-q"], ""), (["run", "study.yaml", "-q", "--r
             (["paper", "berzins2021/table1", "-q"], ""), (["report", "older"], ".html"), (["plot", "older"], ".svg")]
 
 
-class Places(unittest.TestCase):
+class Places(Runs):
+    program = PROGRAM
+    files = {"study.yaml": STUDY}
+
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.dir = pathlib.Path(temporary.name)
-        (self.dir / "study.yaml").write_text(STUDY)
+        super().setUp()
         for args in (["-o", "older", "--set", "mesh.cells=[6,9]"], ["-o", "part1", "--shard", "1/2"], ["-o", "part2", "--shard", "2/2"]):
             self.call("run", "study.yaml", "-q", *args)
-
-    def call(self, *args, codes=(0,), before=()):
-        done = subprocess.run([*before, PROGRAM, *args], cwd=self.dir, capture_output=True, text=True, timeout=300)
-        self.assertIn(done.returncode, codes, f"{args}: {done.stderr}")
-        return done.stderr
 
     def content(self, path):
         return {str(p): p.read_bytes() for p in sorted(path.rglob("*")) if p.is_file()}
@@ -54,7 +51,7 @@ class Places(unittest.TestCase):
                 if args[-1] == "--resume" and place == "read/older":
                     continue  # refused for another reason
                 with self.subTest(args=args, place=place):
-                    err = self.call(*args, "-o", place + ending, codes=(1, 2), before=mount)
+                    err = self.call(*args, "-o", place + ending, code=(1, 2), before=mount).stderr
                     self.assertRegex(err, "Read-only file system" if not ending or "x/y" not in place else "No such file or directory")
                     self.assertIn("read/", err)
         self.assertEqual(self.content(self.dir / "read"), before)
@@ -65,19 +62,18 @@ class Places(unittest.TestCase):
         for args, ending in COMMANDS:
             for place in ["file/x" + ending] + ([] if ending else ["file"]):
                 with self.subTest(args=args, place=place):
-                    self.assertRegex(self.call(*args, "-o", place, codes=(1, 2)), "file[^\n]*: ([Nn]ot a directory|is not a directory)")
+                    self.assertRegex(self.call(*args, "-o", place, code=(1, 2)).stderr, "file[^\n]*: ([Nn]ot a directory|is not a directory)")
         self.assertEqual((self.dir / "file").read_text(), "mine")
         (self.dir / "blocked" / "study.h5").mkdir(parents=True)
         for args, _ in COMMANDS[:3]:
-            self.assertIn("blocked/study.h5", self.call(*args, "-o", "blocked", codes=(1, 2)))
+            self.assertIn("blocked/study.h5", self.call(*args, "-o", "blocked", code=(1, 2)).stderr)
 
     def test_paper_looks_at_its_places_first(self):
         place = self.dir / "ours" / "berzins2022-table2.study"
         place.mkdir(parents=True)
         (place / "mine.txt").write_text("mine")
-        done = subprocess.run([PROGRAM, "paper", "berzins2021/table1", "berzins2022/table2", "-o", "ours"], cwd=self.dir, capture_output=True,
-                              text=True, timeout=300)
-        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        done = self.call("paper", "berzins2021/table1", "berzins2022/table2", "-o", "ours", code=1)
+        self.assertEqual(done.stdout, "")
         self.assertIn("is neither a study nor empty", done.stderr)
         self.assertEqual(self.content(self.dir / "ours"), {str(place / "mine.txt"): b"mine"})
 

@@ -8,9 +8,11 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
+
+sys.dont_write_bytecode = True  # beside the sources
+from runs import Runs
 
 PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 HAS_MPI = "no MPI" not in subprocess.run([PROGRAM, "--version"], capture_output=True, text=True).stdout
@@ -54,26 +56,18 @@ def children(parent):
     return found
 
 
-class Case(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.dir = pathlib.Path(temporary.name)
-        (self.dir / "study.yaml").write_text(STUDY)
-        (self.dir / "endless.yaml").write_text(ENDLESS)
-        (self.dir / "long.yaml").write_text(LONG)
+class Case(Runs):
+    program = PROGRAM
+    files = {"study.yaml": STUDY, "endless.yaml": ENDLESS, "long.yaml": LONG}
 
-    def start(self, *args, before=(), environment=ENVIRONMENT):
-        process = subprocess.Popen([*before, PROGRAM, *args], cwd=self.dir, env=environment, text=True, stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-        self.addCleanup(self.stop, process)
-        return process
+    def start(self, *args, environment=ENVIRONMENT, **more):
+        return super().start(*args, env=environment, stdin=subprocess.DEVNULL, **more)
 
     def stop(self, process):
         """mpirun ends its ranks when it is asked to, and not when it is killed."""
         if process.poll() is None:
             process.terminate()
-            process.wait()
+            process.communicate()
 
     def end(self, process):
         err = process.communicate(timeout=200)[1]
@@ -84,18 +78,9 @@ class Case(unittest.TestCase):
         self.assertEqual(result, code, err)
         return err
 
-    def bytes_of(self, directory):
-        names = sorted(p.name for p in (self.dir / directory).iterdir())
-        self.assertFalse([name for name in names if name.startswith(".")])
-        return {name: (self.dir / directory / name).read_bytes() for name in names if name not in ("run.json", "timing.csv")}
-
-    def records(self, directory):
-        magic = (0x65736163BEEFCAFE).to_bytes(8, sys.byteorder)
-        return [p.read_bytes().count(magic) for p in (self.dir / directory).glob(".journal-*.partial")]
-
     def wait_for(self, process, directory, records, journals):
         while process.poll() is None:
-            now = self.records(directory)
+            now = self.journals(directory)
             if sum(now) >= records and len(now) >= journals:
                 return
             time.sleep(0.01)
@@ -132,7 +117,7 @@ class Ranks(Case):
         process.send_signal(signal.SIGTERM)
         self.end(process)
         if not (self.dir / "cut" / "study.h5").exists():
-            self.assertGreaterEqual(sum(self.records("cut")), 4)
+            self.assertGreaterEqual(self.records("cut"), 4)
             self.assertIn("--resume", self.call("run", "study.yaml", "-o", "cut", "-q", ranks=2, code=2))
         self.call("run", "study.yaml", "-o", "cut", "-q", "--resume", ranks=2)
         self.assertTrue(self.bytes_of("cut") == self.bytes_of("one"))
@@ -140,12 +125,12 @@ class Ranks(Case):
     def test_each_rank_takes_what_it_can_and_a_signal_ends_all(self):
         process = self.start("run", "endless.yaml", "-o", "d", "-j", "1", before=["mpirun", "-n", "3"])
         self.wait_for(process, "d", 2, 3)  # two ranks are in cases that do not end: the third does the others
-        self.assertEqual(sorted(self.records("d")), [0, 0, 2])
+        self.assertEqual(sorted(self.journals("d")), [0, 0, 2])
         process.send_signal(signal.SIGINT)
         code, err = self.end(process)
         self.assertNotEqual(code, 0)
         self.assertEqual(err.count("interrupted; what is done is kept"), 1, err)
-        self.assertEqual(sum(self.records("d")), 2)
+        self.assertEqual(self.records("d"), 2)
 
     def test_checkpoints_of_killed_ranks_are_used(self):
         self.call("run", "long.yaml", "-o", "one", "-q")
@@ -169,7 +154,7 @@ class Ranks(Case):
         code, err = self.end(process)
         self.assertNotEqual(code, 0)
         self.assertEqual(err.count("File too large"), 1, err)
-        self.assertEqual(sum(self.records("d")), 0)
+        self.assertEqual(self.records("d"), 0)
 
     def test_errors_are_told_once(self):
         (self.dir / "bad.yaml").write_text(STUDY.replace("standard", "standart"))
