@@ -54,6 +54,7 @@ static size_t place_arrays(struct gx_mesh *mesh, double *block)
   PLACE(mesh->v, dim, nodes);
   PLACE(mesh->a, dim, nodes);
   PLACE(mesh->u, dim, nodes);
+  PLACE(&mesh->inverse, 1, nodes);
   PLACE(mesh->half, dim, n);
   PLACE(mesh->opened, dim, n);
   PLACE(mesh->opened_nodes, dim, nodes);
@@ -114,6 +115,18 @@ GX_CLONES static void divide_by_mass(size_t nodes, double trace, const double *r
   for (size_t i = 0; i < nodes; i++) field[i] = mass[i] > trace ? field[i] / mass[i] : 0;
 }
 
+GX_CLONES static void times_inverse(size_t nodes, const double *restrict inverse, double *restrict field)
+{
+  for (size_t i = 0; i < nodes; i++) field[i] *= inverse[i];
+}
+
+void gx_mesh_keep_mass(struct gx_mesh *mesh)
+{
+  for (size_t i = 0; i < mesh->grid.stored; i++) mesh->inverse[i] = mesh->mass[i] > mesh->trace ? 1 / mesh->mass[i] : 0;
+  gx_grid_spread(&mesh->grid, mesh->inverse);
+  mesh->kept = true;
+}
+
 /* Lumped, of one component. */
 struct solving {
   struct gx_mesh *mesh;
@@ -126,8 +139,9 @@ static void solve_component(void *context, size_t d, size_t worker)
   const struct gx_mesh *mesh = solving->mesh;
   double *field = solving->field[d];
   (void)worker;
+  if (mesh->kept) times_inverse(mesh->grid.stored, mesh->inverse, field); /* before entries are changed one by one */
   gx_grid_fold(&mesh->grid, field);
-  divide_by_mass(mesh->grid.stored, mesh->trace, mesh->mass, field);
+  if (!mesh->kept) divide_by_mass(mesh->grid.stored, mesh->trace, mesh->mass, field);
   gx_grid_fix(&mesh->grid, (int)d, field);
   gx_grid_spread(&mesh->grid, field);
 }

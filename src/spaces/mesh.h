@@ -27,6 +27,8 @@ struct gx_mesh {
   /* nodal fields, [grid.stored]; mass is zero at periodic images, the others are copied there */
   double *mass;                     /* row sums, kg */
   double trace;                     /* lumped: up to here mass is none but that of round-off in the positions of particles, kg */
+  double *inverse;                  /* of mass, 0 where there is none, at images too, 1/kg, once kept */
+  bool kept;                        /* mass never changes again */
   double *v[GX_MAX_DIM];            /* m/s */
   double *a[GX_MAX_DIM];            /* m/s^2 */
   double *u[GX_MAX_DIM];            /* m; moving mesh only */
@@ -52,6 +54,8 @@ enum gx_status gx_mesh_weigh_frozen(struct gx_mesh *mesh, double *const *u);
 enum gx_status gx_mesh_assemble(struct gx_mesh *mesh, double *const *value, double *const *field);
 /* field = M^-1 sum_p m_p value_p S_ip with the mass assembled last. */
 enum gx_status gx_mesh_project(struct gx_mesh *mesh, double *const *value, double *const *field);
+/* Says that the mass assembled last stays. */
+void gx_mesh_keep_mass(struct gx_mesh *mesh);
 /* Assembles mass and, where it is projected each step, v from the particles: lumped, not now but in gx_mesh_accelerate, which does all
  * in one pass, or in gx_mesh_catch_up, which whoever needs them before calls. */
 enum gx_status gx_mesh_postpone(struct gx_mesh *mesh);

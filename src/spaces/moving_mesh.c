@@ -48,6 +48,7 @@ static enum gx_status create(const struct gx_space_kind *kind, struct gx_space *
   posed->problem->material->piola(&posed->options.moduli, particles->dim, particles->n, particles->F, particles->P);
   GX_TRY(gx_mesh_weigh(mesh, NULL, NULL));
   GX_TRY(gx_mesh_assemble(mesh, particles->u, mesh->u));
+  gx_mesh_keep_mass(mesh);
   GX_TRY(check_hats(mesh));
   GX_TRY(gx_mesh_project(mesh, particles->v, mesh->v));
   if (mesh->affine) gx_affine_gather(mesh);
