@@ -84,6 +84,9 @@ struct gx_problem {
   void (*initial)(const struct gx_posed *posed, double *const *u, double *const *v, double *const *F);
   /* Body force per unit mass at the reference points at time t, m/s^2; NULL: none. b: [dim][n]. */
   void (*body)(const struct gx_posed *posed, double t, double *const *b);
+  /* In 1-D: the angle, rad, linear in time, on whose cosine alone the body force of a point depends; NULL: it depends on time in
+   * another way. */
+  double (*body_angle)(const struct gx_posed *posed, double t);
 };
 
 extern const struct gx_problem *const gx_problem_family[];

@@ -76,6 +76,11 @@ void gx_axis_aligned_body(const struct gx_posed *posed, double t, double *const 
       body_without_bulk(posed->n, A[d], options->moduli.mu, stiff, inertia, posed->sine[d], posed->cosine[d], b[d]);
 }
 
+double gx_axis_aligned_body_angle(const struct gx_posed *posed, double t)
+{
+  return angle(posed, 0, t);
+}
+
 const struct gx_problem gx_axis_aligned = {
     .name = "axis-aligned",
     .help = "standing waves along each active direction, neo-Hookean solid, 1-D to 3-D",
@@ -92,4 +97,5 @@ const struct gx_problem gx_axis_aligned = {
     .check = gx_standing_wave_check,
     .exact = gx_axis_aligned_exact,
     .body = gx_axis_aligned_body,
+    .body_angle = gx_axis_aligned_body_angle,
 };

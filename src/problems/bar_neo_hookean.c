@@ -18,4 +18,5 @@ const struct gx_problem gx_bar_neo_hookean = {
     .check = gx_standing_wave_check,
     .exact = gx_axis_aligned_exact,
     .body = gx_axis_aligned_body,
+    .body_angle = gx_axis_aligned_body_angle,
 };

@@ -386,7 +386,7 @@ static bool power(struct gx_space *space, double ahead, double *power)
   const size_t stored = mesh->grid.stored;
   double *load[GX_MAX_DIM];
   if (!mesh->lattice || mesh->options.each_step) return false;
-  if (!moving->load) moving->load = gx_large_zeros(GX_MAX_DIM * stored * sizeof(double));
+  if (!moving->load) moving->load = gx_large_zeros((GX_MAX_DIM * stored + GX_SLOTS_ROOM) * sizeof(double));
   if (!moving->load) return false;
   for (int d = 0; d < mesh->grid.dim; d++) load[d] = moving->load + (size_t)d * stored;
   if (!moving->loaded && moving->slots)

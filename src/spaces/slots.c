@@ -31,9 +31,11 @@ static size_t place(struct gx_slots *slots, double *at)
   PLACE(&slots->m_S, weights);
   PLACE(&slots->V0, padded(slots));
   PLACE(&slots->band, (size_t)(slots->support * slots->nodes));
-  double **const of_stretch[] = {&slots->F,       &slots->P,       &slots->b, &slots->exact_u, &slots->exact_v,
-                                 &slots->exact_F, &slots->exact_P, &slots->u, &slots->v};
+  double **const of_stretch[] = {&slots->F,       &slots->b,       &slots->exact_u, &slots->exact_v,
+                                 &slots->exact_F, &slots->exact_P, &slots->u,       &slots->v};
   for (size_t i = 0; i < sizeof of_stretch / sizeof *of_stretch; i++) PLACE(of_stretch[i], scratch);
+  PLACE(&slots->P, scratch + 2 * GX_SLOTS_MARGIN);
+  slots->P = at ? slots->P + GX_SLOTS_MARGIN : NULL;
   PLACE(&slots->shares, (size_t)slots->support * GX_SLOTS_ROW);
   PLACE(&slots->tally, 2 * GX_QUANTITIES * GX_SLOTS_ROW);
   PLACE(&slots->forms, 4 * ((size_t)slots->nodes + GX_MAX_SUPPORT));
@@ -98,13 +100,14 @@ static void copy_weights(const struct gx_slots *slots, const struct weights *wei
     }
 }
 
-/* What the particles have in the order of slots, [padded]; 0 where there is none. */
-static void put_in_slots(const struct gx_slots *slots, const double *from, double *to)
+/* Adds what the particles have, in the order of slots, [padded], the first `count` of a cell one by one, the others again from the first
+ * one on. */
+static void put_in_slots(const struct gx_slots *slots, int count, const double *from, double *to)
 {
   for (int p = 0; p < slots->cells * slots->slots; p++) {
-    const int cell = p / slots->slots, slot = p % slots->slots;
+    const int cell = p / slots->slots, slot = p % slots->slots % count;
     const struct gx_slots_stretch stretch = gx_slots_stretch_from(slots, cell / GX_SLOTS_STRETCH * GX_SLOTS_STRETCH);
-    to[stretch.at + (size_t)slot * stretch.pitch + (size_t)(cell - stretch.from)] = from[p];
+    to[stretch.at + (size_t)slot * stretch.pitch + (size_t)(cell - stretch.from)] += from[p];
   }
 }
 
@@ -113,7 +116,7 @@ static int pose(struct gx_slots *slots, const struct gx_particles *particles, co
 {
   double *X = calloc(padded(slots), sizeof *X);
   slots->parts = calloc((size_t)(slots->cells / GX_SLOTS_STRETCH + 1), sizeof *slots->parts);
-  if (X) put_in_slots(slots, particles->X[0], X);
+  if (X) put_in_slots(slots, slots->slots, particles->X[0], X);
   if (X) slots->posed = gx_problem_pose(posed->problem, &posed->options, padded(slots), &X);
   free(X);
   if (!slots->posed || !slots->parts) return -1;
@@ -122,6 +125,24 @@ static int pose(struct gx_slots *slots, const struct gx_particles *particles, co
     slots->parts[from / GX_SLOTS_STRETCH] = gx_problem_part(slots->posed, stretch.at, stretch.pitch * (size_t)slots->slots);
   }
   return 0;
+}
+
+/* Whether the slots of a cell have the same D up to round-off. */
+static bool same_slopes(const struct gx_slots *slots)
+{
+  double most = 0;
+  for (int i = 0; i < slots->slots * slots->support; i++) most = fmax(most, fabs(slots->D[i]));
+  for (int i = slots->support; i < slots->slots * slots->support; i++)
+    if (fabs(slots->D[i] - slots->D[i % slots->support]) > 64 * DBL_EPSILON * slots->cells * most) return false;
+  return true;
+}
+
+static void merge_strains(struct gx_slots *slots)
+{
+  slots->strains = slots->slots;
+  if (!slots->uniform || !same_slopes(slots)) return;
+  slots->strains = 1;
+  for (int i = slots->support; i < slots->slots * slots->support; i++) slots->V0_D[i % slots->support] += slots->V0_D[i];
 }
 
 /* A weight of a cell. */
@@ -166,15 +187,18 @@ struct gx_slots *gx_slots_create(const struct gx_lattice_line *line, const struc
   copy_weights(slots, &D, slots->D);
   copy_weights(slots, &V0_D, slots->V0_D);
   copy_weights(slots, &m_S, slots->m_S);
-  put_in_slots(slots, particles->V0, slots->V0);
-  slots->volume = gx_particles_volume(particles);
+  merge_strains(slots);
+  put_in_slots(slots, slots->strains, particles->V0, slots->V0);
+  slots->volume = gx_particles_volume(particles) * (slots->slots / slots->strains);
   fill_band(slots);
+  gx_slots_force_prepare(slots);
   return slots;
 }
 
 void gx_slots_free(struct gx_slots *slots)
 {
   if (!slots) return;
+  gx_force_series_free(slots->series);
   gx_problem_free(slots->posed);
   free(slots->parts);
   free(slots->block);
@@ -203,11 +227,11 @@ GX_CORE void gather_any(const int support, const bool uniform, double start, siz
     for (size_t i = 0; i < n; i++) value[i] += (uniform ? w[k] : w[k * n + i]) * field[i + k];
 }
 
-GX_CLONES void gx_slots_values(const struct gx_slots *slots, const struct gx_slots_stretch *stretch, const double *weights,
-                               double start, const double *field, double *values)
+GX_CLONES void gx_slots_values(const struct gx_slots *slots, const struct gx_slots_stretch *stretch, int count,
+                               const double *weights, double start, const double *field, double *values)
 {
   const size_t n = stretch->pitch;
-  for (int slot = 0; slot < slots->slots; slot++) {
+  for (int slot = 0; slot < count; slot++) {
     const double *w = weights + gx_slots_weights_at(slots, stretch, slot);
     double *value = values + (size_t)slot * n;
     if (!slots->uniform)
@@ -246,7 +270,7 @@ static void gather_in_order(const struct gx_slots *slots, const double *weights,
 {
   for (int from = 0; from < slots->cells; from += GX_SLOTS_STRETCH) {
     const struct gx_slots_stretch stretch = gx_slots_stretch_from(slots, from);
-    gx_slots_values(slots, &stretch, weights, start, field + slots->base + from, slots->u);
+    gx_slots_values(slots, &stretch, slots->slots, weights, start, field + slots->base + from, slots->u);
     put_in_order(slots, &stretch, slots->u, to + stretch.at);
   }
 }

@@ -18,7 +18,8 @@ struct gx_slots;
 struct gx_slots *gx_slots_create(const struct gx_lattice_line *line, const struct gx_particles *particles,
                                  const struct gx_posed *posed);
 void gx_slots_free(struct gx_slots *slots);
-/* Nodal fields, [nodes], have room for eight entries that may be read behind them and do not count. */
+/* Nodal fields, [nodes], have room for so many entries behind them that do not count and may be read, and behind a force set to 0. */
+enum { GX_SLOTS_ROOM = 8 };
 
 /* force at time t with P of F. Returns whether every F is that of a body that is not tangled. */
 bool gx_slots_force(struct gx_slots *slots, const double *u, double t, double *force);

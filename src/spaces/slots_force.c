@@ -1,9 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Forces stretch by stretch: F of all its slots, P and the body force, then for every function k that a cell meets the sum of its
- * shares over the slots, and last these sums shifted by k. Cores are inlined with the support constant. */
+ * shares over the slots, and last these sums shifted by k. Where the slots of a cell have the same F, its P takes the place of the sums;
+ * a body force that is a series needs none. Cores are inlined with the support constant. */
 #include "slots_core.h"
 
+#include <string.h>
+
 #include "../core/kernel.h"
+
+/* Numbers of a series that stay in a first-level cache, from where they take less time than a particle in every cell; more of them, from
+ * the next level, take that of three. */
+enum { SERIES = 3072 };
 
 /* What is shared out. */
 enum { STRESS = 1, BODY = 2, BOTH = STRESS | BODY };
@@ -79,6 +86,13 @@ GX_CORE void share_four(const int what, const bool add, int support, const struc
     share_alike(4, 4, what, add, loads, shares);
 }
 
+/* Zeros behind the cells of a stretch, unless they are there. */
+GX_CORE void clear_behind(const struct gx_slots_stretch *stretch, double *row)
+{
+  const bool dirty = stretch->from > 0 || (size_t)stretch->cells < stretch->pitch;
+  for (int i = stretch->cells; dirty && i < stretch->cells + GX_SLOTS_MARGIN; i++) row[i] = 0;
+}
+
 /* Shares of every cell of a stretch, and zeros behind. */
 GX_CORE void share(const bool uniform, const int what, const struct gx_slots *slots, const struct gx_slots_stretch *stretch)
 {
@@ -99,9 +113,7 @@ GX_CORE void share(const bool uniform, const int what, const struct gx_slots *sl
       share_slot(uniform, what, false, slots->support, &loads, shares);
     slot += four ? 4 : 1;
   }
-  const bool dirty = stretch->from > 0 || (size_t)stretch->cells < stretch->pitch;
-  for (int k = 0; dirty && k < slots->support; k++)
-    for (int i = stretch->cells; i < stretch->cells + GX_SLOTS_MARGIN; i++) shares[k * GX_SLOTS_ROW + i] = 0;
+  for (int k = 0; k < slots->support; k++) clear_behind(stretch, shares + k * GX_SLOTS_ROW);
 }
 
 GX_CLONES static void share_out(const struct gx_slots *slots, const struct gx_slots_stretch *stretch, int what)
@@ -121,54 +133,85 @@ GX_CLONES static void share_out(const struct gx_slots *slots, const struct gx_sl
 #undef SHARE
 }
 
-/* force[i] = sum_k shares[k][i - k]; the first support - 1 nodes have what the stretch before left there. */
-GX_CORE void shift(const int support, const struct gx_slots_stretch *stretch, const double *restrict shares,
-                   double *restrict force)
+/* Rows of the cells of a stretch, with zeros on both sides, one for every k, or of equal ones that have different weights the first. */
+struct shifted {
+  int cells;
+  const double *row, *weight; /* weight: NULL: 1 */
+};
+
+/* force[i] += sum_k weight_k row_k[i - k] */
+GX_CORE void shift(const int support, const bool weighted, const struct shifted *shifted, double *restrict force)
 {
-  const int nodes = stretch->cells + support - 1, begun = stretch->from > 0 ? support - 1 : 0;
-  for (int i = 0; i < begun; i++)
-    for (int k = 0; k < support; k++) force[i] += shares[k * GX_SLOTS_ROW + i - k];
-  for (int i = begun; i < nodes; i++) {
-    double sum = shares[i];
-    for (int k = 1; k < support; k++) sum += shares[k * GX_SLOTS_ROW + i - k];
-    force[i] = sum;
+  const double *restrict row = shifted->row;
+  const int nodes = shifted->cells + support - 1, pitch = weighted ? 0 : GX_SLOTS_ROW;
+  double w[GX_MAX_SUPPORT];
+  for (int k = 0; k < support; k++) w[k] = weighted ? shifted->weight[k] : 1;
+  for (int i = 0; i < nodes; i++) {
+    double sum = w[0] * row[i];
+    for (int k = 1; k < support; k++) sum += w[k] * row[k * pitch + i - k];
+    force[i] += sum;
   }
 }
 
-GX_CLONES static void add_up(const struct gx_slots *slots, const struct gx_slots_stretch *stretch, double *force)
+GX_CLONES static void add_up(int support, const struct shifted *shifted, double *force)
 {
-  const double *shares = slots->shares + GX_SLOTS_MARGIN;
-  if (slots->support == 2)
-    shift(2, stretch, shares, force);
-  else if (slots->support == 3)
-    shift(3, stretch, shares, force);
-  else
-    shift(slots->support, stretch, shares, force);
+#define SHIFT(support)                                                                                                           \
+  if (shifted->weight)                                                                                                           \
+    shift(support, true, shifted, force);                                                                                        \
+  else                                                                                                                           \
+    shift(support, false, shifted, force);
+  if (support == 2) {
+    SHIFT(2)
+  } else if (support == 3) {
+    SHIFT(3)
+  } else {
+    SHIFT(support)
+  }
+#undef SHIFT
 }
 
-static void clear_beside(const struct gx_slots *slots, double *force)
-{
-  for (int i = 0; i < slots->base; i++) force[i] = 0;
-  for (int i = slots->base + slots->cells + slots->support - 1; i < slots->nodes; i++) force[i] = 0;
-}
-
+/* The body force of a stretch at time t. */
 static void find_body(const struct gx_slots *slots, const struct gx_slots_stretch *stretch, double t)
 {
   const struct gx_posed *posed = gx_slots_posed(slots, stretch);
   posed->problem->body(posed, t, (double *[]){slots->b});
 }
 
+/* To the force, what the slots of a stretch share out. */
+static void add_shares(const struct gx_slots *slots, const struct gx_slots_stretch *stretch, int what, double *force)
+{
+  share_out(slots, stretch, what);
+  add_up(slots->support, &(struct shifted){stretch->cells, slots->shares + GX_SLOTS_MARGIN, NULL},
+         force + slots->base + stretch->from);
+}
+
+/* The same of P that slots have together. */
+static void add_common_stress(const struct gx_slots *slots, const struct gx_slots_stretch *stretch, double *force)
+{
+  clear_behind(stretch, slots->P);
+  add_up(slots->support, &(struct shifted){stretch->cells, slots->P, slots->V0_D}, force + slots->base + stretch->from);
+}
+
+/* force = that of the series, or 0 */
+static void start(const struct gx_slots *slots, double t, double *force)
+{
+  if (slots->series)
+    gx_force_series_at(slots->series, slots->posed->problem->body_angle(slots->posed, t), force);
+  else
+    memset(force, 0, (size_t)slots->nodes * sizeof *force);
+}
+
 bool gx_slots_force(struct gx_slots *slots, const double *u, double t, double *force)
 {
-  const struct gx_problem *problem = slots->posed->problem;
+  const bool body = slots->posed->problem->body && !slots->series, common = slots->uniform && slots->strains == 1;
   bool sound = true;
-  clear_beside(slots, force);
   for (int from = 0; from < slots->cells; from += GX_SLOTS_STRETCH) {
     const struct gx_slots_stretch stretch = gx_slots_stretch_from(slots, from);
     sound = gx_slots_stress(slots, &stretch, u) && sound;
-    if (problem->body) find_body(slots, &stretch, t);
-    share_out(slots, &stretch, problem->body ? BOTH : STRESS);
-    add_up(slots, &stretch, force + slots->base + from);
+    if (from == 0) start(slots, t, force); /* here, where the processor waits for divisions meanwhile */
+    if (body) find_body(slots, &stretch, t);
+    if (common) add_common_stress(slots, &stretch, force);
+    if (body || !common) add_shares(slots, &stretch, common ? BODY : body ? BOTH : STRESS, force);
   }
   slots->held = slots->cells <= GX_SLOTS_STRETCH;
   return sound;
@@ -176,11 +219,32 @@ bool gx_slots_force(struct gx_slots *slots, const double *u, double t, double *f
 
 void gx_slots_force_body(struct gx_slots *slots, double t, double *force)
 {
-  clear_beside(slots, force);
-  for (int from = 0; from < slots->cells; from += GX_SLOTS_STRETCH) {
+  start(slots, t, force);
+  for (int from = 0; from < slots->cells && !slots->series; from += GX_SLOTS_STRETCH) {
     const struct gx_slots_stretch stretch = gx_slots_stretch_from(slots, from);
     if (!slots->held) find_body(slots, &stretch, t);
-    share_out(slots, &stretch, BODY);
-    add_up(slots, &stretch, force + slots->base + from);
+    add_shares(slots, &stretch, BODY, force);
   }
+}
+
+/* The angle of the problem is start + rate t. */
+struct sampling {
+  struct gx_slots *slots;
+  double start, rate;
+};
+
+static void sample(void *context, double angle, double *force)
+{
+  const struct sampling *sampling = context;
+  gx_slots_force_body(sampling->slots, (angle - sampling->start) / sampling->rate, force);
+}
+
+void gx_slots_force_prepare(struct gx_slots *slots)
+{
+  const struct gx_posed *posed = slots->posed;
+  if (!posed->problem->body || !posed->problem->body_angle) return;
+  const double start = posed->problem->body_angle(posed, 0), rate = posed->problem->body_angle(posed, 1) - start;
+  struct sampling sampling = {slots, start, rate};
+  const size_t nodes = (size_t)slots->nodes;
+  slots->series = gx_force_series_create(nodes, SERIES / nodes, sample, &sampling);
 }

@@ -10,7 +10,7 @@
 /* The first slot of a group and the exact solution there; nodal fields from the first node on that the stretch meets. */
 struct group {
   int cells;
-  size_t pitch;
+  size_t pitch, pitch_P; /* from one slot to the next, and of their P: 0, they have the same */
   const double *S, *u, *v, *P, *exact_u, *exact_v, *exact_P;
 };
 
@@ -28,9 +28,12 @@ GX_CORE void compare(const int support, const int count, const bool add, const s
 {
   const double *restrict u = group->u, *restrict v = group->v, *restrict P = group->P;
   const double *restrict exact_u = group->exact_u, *restrict exact_v = group->exact_v, *restrict exact_P = group->exact_P;
+  const double *restrict stress[GX_SLOTS_GROUP];
   double w[GX_SLOTS_GROUP][GX_SLOTS_FEW];
-  for (int g = 0; g < count; g++)
+  for (int g = 0; g < count; g++) {
+    stress[g] = P + (size_t)g * group->pitch_P;
     for (int k = 0; k < support; k++) w[g][k] = group->S[g * support + k];
+  }
   for (size_t i = 0; i < (size_t)group->cells; i++) {
     double square[GX_QUANTITIES], most[GX_QUANTITIES];
     for (size_t q = 0; q < GX_QUANTITIES; q++) {
@@ -40,7 +43,7 @@ GX_CORE void compare(const int support, const int count, const bool add, const s
     for (int g = 0; g < count; g++) {
       const size_t at = (size_t)g * group->pitch + i;
       const double error[GX_QUANTITIES] = {value(support, w, g, u, i, at) - exact_u[at],
-                                           value(support, w, g, v, i, at) - exact_v[at], P[at] - exact_P[at]};
+                                           value(support, w, g, v, i, at) - exact_v[at], stress[g][i] - exact_P[at]};
       for (int q = 0; q < GX_QUANTITIES; q++) {
         const double more = error[q] * error[q];
         square[q] += more;
@@ -90,19 +93,21 @@ static void compare_stretch(const struct gx_slots *slots, const struct gx_slots_
 {
   const bool gathered = !slots->uniform || slots->support < 2 || slots->support > GX_SLOTS_FEW;
   const int support = gathered ? 0 : slots->support;
+  const size_t pitch_P = slots->strains > 1 ? stretch->pitch : 0;
   if (gathered) {
-    gx_slots_values(slots, stretch, slots->S, 0, u, slots->u);
-    gx_slots_values(slots, stretch, slots->S, 0, v, slots->v);
+    gx_slots_values(slots, stretch, slots->slots, slots->S, 0, u, slots->u);
+    gx_slots_values(slots, stretch, slots->slots, slots->S, 0, v, slots->v);
   }
   for (int slot = 0, count; slot < slots->slots; slot += count) {
     const size_t at = (size_t)slot * stretch->pitch;
     count = slots->slots - slot < GX_SLOTS_GROUP ? 1 : GX_SLOTS_GROUP;
     const struct group group = {.cells = stretch->cells,
                                 .pitch = stretch->pitch,
+                                .pitch_P = pitch_P,
                                 .S = slots->S + slot * support,
                                 .u = gathered ? slots->u + at : u,
                                 .v = gathered ? slots->v + at : v,
-                                .P = slots->P + at,
+                                .P = slots->P + (size_t)slot * pitch_P,
                                 .exact_u = slots->exact_u + at,
                                 .exact_v = slots->exact_v + at,
                                 .exact_P = slots->exact_P + at};
@@ -115,7 +120,7 @@ static double energy(const struct gx_slots *slots, const struct gx_slots_stretch
 {
   const struct gx_material *material = slots->posed->problem->material;
   const struct gx_moduli *moduli = &slots->posed->options.moduli;
-  const size_t n = stretch->pitch * (size_t)slots->slots;
+  const size_t n = stretch->pitch * (size_t)slots->strains;
   double *F[] = {slots->F}, *W = slots->exact_F;
   if (slots->volume > 0 && material->total) return slots->volume * material->total(moduli, 1, n, F); /* 0 where F is 1 */
   material->energy(moduli, 1, n, F, W);

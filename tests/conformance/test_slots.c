@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Forces of the 1-D moving mesh slot by slot against the general transfers, which a body has whose particles are no lattice: every
  * basis of the moving mesh and the degrees that it has, periodic and fixed, both layouts, lumped and consistent mass, with and without body force; bars
- * shorter than a vector and longer than a stretch; and bars that tangle. */
+ * shorter than a vector and longer than a stretch; and bars that tangle. The body force as a series in time against its sums over particles. */
+#include <float.h>
 #include <limits.h>
 
 #include <gsl/gsl_errno.h>
 
+#include "core/vector.h"
 #include "rig.h"
+#include "spaces/mesh.h"
+#include "spaces/slots_core.h"
 
 struct ending {
   struct gx_outcome outcome;
@@ -104,6 +108,7 @@ static void slots_are_the_general_transfers(void **state)
         check_basis(gx_basis_family[i], degree, boundary, layout, mass, 7, 3);
         check_basis(gx_basis_family[i], degree, boundary, layout, mass, 13, 9);
         check_basis(gx_basis_family[i], degree, boundary, layout, mass, 525, 2);
+        check_basis(gx_basis_family[i], degree, boundary, layout, mass, 264, 2); /* the second stretch fills its last vector */
         if (kind < 4) check_basis(gx_basis_family[i], degree, boundary, layout, mass, 8, 1); /* full mass is singular */
       }
 }
@@ -133,6 +138,72 @@ static void slots_tangle_alike(void **state)
       }
 }
 
+/* Both sums of the body force at random times: what is cut, as in force_series.h, and the round-off of so many operations, relative to
+ * the terms of the body force without their signs. */
+static void check_series(const struct gx_case *one, bool expected, const char *what)
+{
+  struct rig rig;
+  CHECK(rig_build(&rig, one, NULL, NULL, NULL), "%s: %s", what, rig.outcome.reason);
+  const struct gx_mesh *mesh = (const struct gx_mesh *)rig.simulation.space;
+  const struct gx_posed *posed = mesh->space.posed;
+  struct gx_slots *slots = gx_slots_create(gx_lattice_line(mesh->lattice), mesh->space.particles, posed);
+  struct gx_force_series *series = slots->series;
+  CHECK(!series == !expected, "%s: %s", what, series ? "a series" : "no series");
+  const double A = fabs(posed->options.amplitude), s = 2 * M_PI * A, rho = (1 + sqrt(1 - s * s)) / s;
+  const struct gx_moduli *moduli = &posed->options.moduli;
+  const double most =
+      A * 4 * M_PI * M_PI / moduli->density *
+      (moduli->mu + (moduli->mu + moduli->lambda * (1 - log(1 - s))) / ((1 - s) * (1 - s)) + moduli->lambda + moduli->mu);
+  const double operations = 4 / (rho - 1) + 1 + 16 + 10 + slots->support * slots->slots;
+  const double bound = operations * DBL_EPSILON * most * gx_vector_max(mesh->grid.stored, mesh->mass), period = 2 / posed->speed;
+  double *force = calloc(2 * (mesh->grid.stored + GX_SLOTS_ROOM), sizeof *force),
+         *sums = force + mesh->grid.stored + GX_SLOTS_ROOM;
+  uint64_t seed = 11;
+  for (int k = 0; series && k < 200; k++) {
+    const double t = period * check_random(&seed, -1, k % 2 ? 1 : 40);
+    gx_slots_force_body(slots, t, force);
+    slots->series = NULL;
+    gx_slots_force_body(slots, t, sums);
+    slots->series = series;
+    for (size_t i = 0; i < mesh->grid.stored; i++) NEAR(force[i], sums[i], bound);
+  }
+  free(force);
+  gx_slots_free(slots);
+  rig_free(&rig);
+}
+
+static void body_force_as_a_series(void **state)
+{
+  (void)state;
+  static const char *const amplitudes[] = {"problem.amplitude=1e-4", "problem.amplitude=-0.05", "problem.amplitude=0.1"};
+  static const char *const phases[] = {"problem.phases=0", "problem.phases=0.3", "problem.phases=-41.7"};
+  static const char *const poissons[] = {"problem.poisson=0", "problem.poisson=0.3"};
+  static const char *const cells[] = {"mesh.cells=7", "mesh.cells=64", "mesh.cells=200"};
+  for (int kind = 0; kind < 3 * 3 * 2 * 3 * 2; kind++) {
+    const char *amplitude = amplitudes[kind % 3], *phase = phases[kind / 3 % 3], *poisson = poissons[kind / 9 % 2];
+    const char *size = cells[kind / 18 % 3], *boundary = kind / 54 ? "problem.boundary=fixed" : "problem.boundary=periodic";
+    char what[160];
+    snprintf(what, sizeof what, "%s, %s, %s, %s, %s", amplitude, phase, poisson, size, boundary);
+    const struct gx_case one =
+        case_of("problem.name=axis-aligned", "problem.dimension=1", "method.space=moving-mesh",
+                kind % 2 ? "method.degree=1" : "method.degree=2", "mesh.particles_per_cell=3",
+                kind % 5 ? "mesh.layout=uniform" : "mesh.layout=gauss", amplitude, phase, poisson, size, boundary);
+    check_series(&one, true, what);
+  }
+}
+
+/* Too steep; too long; no body force. */
+static void no_series(void **state)
+{
+  (void)state;
+  const struct gx_case steep = case_of("method.space=moving-mesh", "problem.amplitude=0.155"),
+                       large = case_of("method.space=moving-mesh", "mesh.cells=1000"),
+                       free = case_of("problem.name=bar-linear", "method.space=moving-mesh");
+  check_series(&steep, false, "steep");
+  check_series(&large, false, "large");
+  check_series(&free, false, "free");
+}
+
 int main(void)
 {
   gsl_set_error_handler_off();
@@ -140,6 +211,8 @@ int main(void)
       cmocka_unit_test(slots_are_the_general_transfers),
       cmocka_unit_test(slots_without_body_force),
       cmocka_unit_test(slots_tangle_alike),
+      cmocka_unit_test(body_force_as_a_series),
+      cmocka_unit_test(no_series),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
