@@ -11,18 +11,17 @@
 extern const struct gx_basis gx_linear, gx_ugimp, gx_cpgimp, gx_bspline;
 
 /* Bases whose weights the passes make. */
-static bool knows(const struct gx_space_options *options)
+static bool knows(const struct gx_basis *basis)
 {
-  const struct gx_basis *basis = options->basis;
-  return basis == &gx_linear || basis == &gx_ugimp || basis == &gx_cpgimp || (basis == &gx_bspline && options->degree <= 3);
+  return basis == &gx_linear || basis == &gx_ugimp || basis == &gx_cpgimp || basis == &gx_bspline;
 }
 
 static bool suits(const struct gx_mesh *mesh)
 {
   const struct gx_space_options *options = &mesh->options;
-  return mesh->grid.dim == 1 && mesh->space.particles->n >= GX_LINE_BLOCK && mesh->space.kind->fixed_grid && knows(options) &&
-         !options->consistent && !options->reconstructed && !options->apic && !options->particle_motion &&
-         !options->stress_rate && options->each_step;
+  return mesh->grid.dim == 1 && mesh->space.particles->n >= GX_LINE_BLOCK && mesh->space.kind->fixed_grid &&
+         knows(options->basis) && !options->consistent && !options->reconstructed && !options->apic &&
+         !options->particle_motion && !options->stress_rate && options->each_step;
 }
 
 struct gx_line *gx_line_create(struct gx_mesh *mesh)

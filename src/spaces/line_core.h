@@ -12,6 +12,23 @@
 
 typedef double record __attribute__((vector_size(32)));
 
+/* Runs statement with `support` a constant where it is small. */
+#define OF_SUPPORT(value, statement)                                                                                             \
+  if ((value) == 2) {                                                                                                            \
+    enum { support = 2 };                                                                                                        \
+    statement;                                                                                                                   \
+  } else if ((value) == 3) {                                                                                                     \
+    enum { support = 3 };                                                                                                        \
+    statement;                                                                                                                   \
+  } else if ((value) == 4) {                                                                                                     \
+    enum { support = 4 };                                                                                                        \
+    statement;                                                                                                                   \
+  } else {                                                                                                                       \
+    const int support = (value);                                                                                                 \
+    if (support < 2 || support > GX_MAX_SUPPORT) __builtin_unreachable();                                                        \
+    statement;                                                                                                                   \
+  }
+
 /* X + u in units of cells, as gx_locate has it. */
 GX_CORE void locate(const bool periodic, const vec *cells, const vec *x, vec *s)
 {
@@ -30,7 +47,7 @@ GX_CORE void hold(const vec *position, const vec *last, vec *cell)
   *cell = LARGEST(within, none);
 }
 
-/* Of degree 1 to 3 at place r of a cell, D per cell, as the basis has them. */
+/* At place r of a cell, D per cell, as the basis has them. */
 GX_CORE void spline_weights(const int degree, const vec *place, vec *S, vec *D)
 {
   const vec r = *place, one = (vec){0} + 1;
@@ -108,7 +125,7 @@ GX_CORE void weigh_some(const struct gx_line_fields *f, const int support, const
                         double high, size_t p, const struct weigh_scale *scale, ints *stray)
 {
   const vec cells = scale->cells;
-  vec X, u, F, s, cell, place, half, S[4], D[4];
+  vec X, u, F, s, cell, place, half, S[GX_MAX_SUPPORT], D[GX_MAX_SUPPORT];
   LOAD(X, f->X + p);
   LOAD(u, f->u + p);
   const vec x = X + u;
@@ -163,10 +180,10 @@ GX_CORE bool weigh_axis(const struct gx_line_fields *f, const int support, const
 PASS static bool weigh(const struct gx_line_fields *fields, double low, double high)
 {
   const struct gx_line_fields f = *fields;
+  bool sound = true;
   if (f.basis->has_domain) return weigh_axis(&f, 3, true, low, high);
-  if (f.support == 2) return weigh_axis(&f, 2, false, low, high);
-  if (f.support == 3) return weigh_axis(&f, 3, false, low, high);
-  return weigh_axis(&f, 4, false, low, high);
+  OF_SUPPORT(f.support, sound = weigh_axis(&f, support, false, low, high))
+  return sound;
 }
 
 /* Records of the block at p, [support][BLOCK]: those of its even particles, then of its odd ones. */
@@ -282,9 +299,7 @@ GX_CORE void scatter_support(const struct gx_line_fields *f, const int support, 
 PASS static void scatter(const struct gx_line_fields *fields, enum gx_line_part part)
 {
   const struct gx_line_fields f = *fields; /* what is written cannot change them */
-  if (f.support == 2) scatter_support(&f, 2, part);
-  if (f.support == 3) scatter_support(&f, 3, part);
-  if (f.support == 4) scatter_support(&f, 4, part);
+  OF_SUPPORT(f.support, scatter_support(&f, support, part))
 }
 
 PASS static void divide(const struct gx_line_fields *fields, enum gx_line_part part)
@@ -321,7 +336,7 @@ GX_CORE void advance_block(const struct gx_line_fields *f, const int support, co
   for (size_t h = 0; h < GX_LINE_BLOCK; h += WIDTH) {
     const size_t at = p + h;
     const int *first = f->first + at;
-    vec a = {0}, v = {0}, gradient = {0}, S, D, F, u, velocity, nodal;
+    vec a = {0}, v = {0}, gradient = {0}, nodal = {0}, S, D, F, u, velocity;
     for (int s = 0; s < support; s++) {
       LOAD(S, f->S + (size_t)s * n + at);
       LOAD(D, f->D + (size_t)s * n + at);
@@ -381,9 +396,7 @@ PASS static void advance(const struct gx_line_fields *fields, const struct gx_li
 {
   const struct gx_line_fields f = *fields;
   const struct gx_line_step step = *spans;
-  if (f.support == 2) advance_support(&f, 2, &step);
-  if (f.support == 3) advance_support(&f, 3, &step);
-  if (f.support == 4) advance_support(&f, 4, &step);
+  OF_SUPPORT(f.support, advance_support(&f, support, &step))
 }
 
 /* Of the block at p, which writes its `count` particles alone. */
@@ -392,7 +405,7 @@ GX_CORE void gather_block(const struct gx_line_fields *f, const int support, con
 {
   double all[GX_LINE_BLOCK];
   for (size_t h = 0; h < GX_LINE_BLOCK; h += WIDTH) {
-    vec sum = {0}, S, nodal;
+    vec sum = {0}, nodal = {0}, S;
     for (int s = 0; s < support; s++) {
       LOAD(S, f->S + (size_t)s * f->n + p + h);
       look_up(f->first + p + h, within, s, field, &nodal);
@@ -417,10 +430,9 @@ GX_CORE void gather_support(const struct gx_line_fields *f, const int support, c
 PASS static void gather(const struct gx_line_fields *fields, const double *field, double *value)
 {
   const struct gx_line_fields f = *fields;
-  if (f.support == 2) gather_support(&f, 2, field, value);
-  if (f.support == 3) gather_support(&f, 3, field, value);
-  if (f.support == 4) gather_support(&f, 4, field, value);
+  OF_SUPPORT(f.support, gather_support(&f, support, field, value))
 }
 
+#undef OF_SUPPORT
 #undef LOAD
 #undef STORE

@@ -97,8 +97,8 @@ struct choice {
   const char *basis, *degree;
 };
 
-static const struct choice choices[] = {{"linear", ""},   {"ugimp", ""},    {"cpgimp", ""},
-                                        {"bspline", "1"}, {"bspline", "2"}, {"bspline", "3"}};
+static const struct choice choices[] = {{"linear", ""},   {"ugimp", ""},    {"cpgimp", ""},   {"bspline", "1"},
+                                        {"bspline", "2"}, {"bspline", "3"}, {"bspline", "5"}, {"bspline", "9"}};
 enum { CHOICES = sizeof choices / sizeof *choices };
 
 static struct gx_case bar(const char *problem, const struct choice *choice, const char *clock, const char *boundary)
@@ -204,6 +204,7 @@ static void transfers_agree_through_many_crossings(void **state)
   (void)state;
   for (int choice = 0; choice < CHOICES; choice++)
     for (int bounded = 0; bounded < 2; bounded++) {
+      if (bounded && atoi(choices[choice].degree) > 6) continue; /* particles leave through the walls */
       const char *boundary = bounded ? "fixed" : "periodic";
       struct gx_case one = bar("bar-neo-hookean", &choices[choice], "central-difference", boundary);
       char what[160];
