@@ -65,7 +65,7 @@ void gx_particles_image(struct gx_particles *particles, struct gx_image *image);
 
 /* det F of one particle */
 double gx_particles_jacobian(const struct gx_particles *particles, size_t p);
-/* V0 of all particles, m^dim, where they differ by no more than round-off; 0: they do. */
+/* V0 of all particles, m^dim, where they differ by no more than round-off, else 0. */
 double gx_particles_volume(const struct gx_particles *particles);
 
 #endif

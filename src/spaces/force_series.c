@@ -142,7 +142,7 @@ static void expand(struct gx_force_series *series, size_t count, double factor[T
 static bool make(struct gx_force_series *series, size_t most_terms, gx_force_sample *sample, void *context, double *scratch)
 {
   double *coefficient = scratch + (MANY + 1) * series->pitch, most[MANY + 1], factor[TAYLOR][MANY];
-  const size_t count = most_terms < LEAST ? 0 : fit(series->pitch, sample, context, scratch, coefficient, most);
+  const size_t count = fit(series->pitch, sample, context, scratch, coefficient, most);
   if (count == 0) return false;
   find_factors(count, factor);
   series->terms = economise(count, most, factor);
@@ -155,6 +155,7 @@ static bool make(struct gx_force_series *series, size_t most_terms, gx_force_sam
 
 struct gx_force_series *gx_force_series_create(size_t nodes, size_t most_terms, gx_force_sample *sample, void *context)
 {
+  if (most_terms < LEAST) return NULL;
   const size_t pitch = (nodes + LANES - 1) / LANES * LANES;
   struct gx_force_series *series = malloc(sizeof *series);
   void *block = NULL;
